@@ -1,0 +1,90 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "common/base/vec.h"
+#include "common/sea/components.h"
+#include "common/sea/surface.h"
+
+/// Point queries: the sea at a place and any time, choppy displacement inverted.
+namespace onesea::sea {
+
+/// Layers that an answer contains; the interaction layer joins later. Bit set, sent on the wire.
+inline constexpr std::uint32_t kLayerSpectral = 1;
+
+enum class QueryDetail : std::uint8_t {
+  kHeight = 1,   ///< height, displacement, residual, folded
+  kNormal = 2,   ///< also the normal
+  kVelocity = 3  ///< also the surface velocity
+};
+
+struct SurfaceSample {
+  float height_m = 0.0f;             ///< of the top sheet above (x, y)
+  float displacement_x_m = 0.0f;     ///< from the undisplaced point to (x, y)
+  float displacement_y_m = 0.0f;
+  float residual_m = 0.0f;           ///< horizontal miss of the inversion
+  float normal_x = 0.0f, normal_y = 0.0f, normal_z = 1.0f;
+  float velocity_x_m_per_s = 0.0f, velocity_y_m_per_s = 0.0f, velocity_z_m_per_s = 0.0f;  ///< with the current
+  bool folded = false;               ///< the surface is multi-valued here; the top sheet answers
+};
+
+struct DepthSample {
+  Vec3d velocity_m_per_s;         ///< of the water particle, with the current (Airy)
+  double dynamic_pressure_pa = 0; ///< rho g Σ a cosh k(z+h)/cosh kh cos(...), hydrostatic part excluded
+};
+
+/// The sea at one instant, ready for many points. Immutable, thread-safe, share it.
+/// Built by SnapshotBuilder::At().
+class SeaSnapshot {
+ public:
+  struct Impl;
+  explicit SeaSnapshot(std::unique_ptr<const Impl> impl);
+  ~SeaSnapshot();
+
+  SimTime time() const;
+  QueryDetail detail() const;
+
+  /// out[n] answers points[n]. Finite coordinates only (CHECK). Vectorised over points; allocates nothing.
+  void Sample(std::span<const Vec2d> points, std::span<SurfaceSample> out) const;
+
+  /// Bound [m] of |height_m - exact| for unfolded points: bilinear interpolation plus inversion; see point_query.cc
+  /// for its derivation and for the probability with which it holds.
+  double HeightErrorBound() const;
+
+ private:
+  std::unique_ptr<const Impl> impl_;
+};
+
+/// Makes snapshots at any time by synthesis on the recipe's query grids. Not thread-safe.
+class SnapshotBuilder {
+ public:
+  explicit SnapshotBuilder(std::shared_ptr<const Components> components,
+                           TransformKind transform = TransformKind::kOwn);
+  ~SnapshotBuilder();
+  /// Cost: about 0.6 ms for kHeight with the default cascades, one core. Reuses the storage of `recycle` if it is the
+  /// only owner of it.
+  std::shared_ptr<const SeaSnapshot> At(SimTime time, QueryDetail detail,
+                                        std::shared_ptr<const SeaSnapshot> recycle = nullptr);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Below the surface: the direct sum over every component, exact; about 15 µs a point. `depth_m` >= 0 below z = 0.
+void SampleAtDepth(const Components& components, SimTime time, std::span<const Vec2d> points,
+                   std::span<const double> depth_m, std::span<DepthSample> out);
+
+/// The direct sum in double over every component at undisplaced points: the oracle of the two above. Slow.
+struct DirectSample {
+  double height_m = 0, displacement_x_m = 0, displacement_y_m = 0;
+  double slope_x = 0, slope_y = 0, jacobian_xx = 0, jacobian_yy = 0, jacobian_xy = 0;
+  Vec3d velocity_m_per_s;
+};
+DirectSample SumDirectly(const Components& components, SimTime time, Vec2d undisplaced);
+
+}  // namespace onesea::sea

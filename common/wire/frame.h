@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "common/wire/session_spec.h"
+
+/// Frames of the Watch stream: domain structs and their bytes (proto onesea.v1.WatchResponse).
+namespace onesea::wire {
+
+struct Stamp {
+  Tick tick = 0;
+  std::int64_t server_monotonic_ns = 0;  ///< when `tick` was due, server's clock
+  double speed = 1.0;                    ///< sea seconds per real second from here on; 0 when held or in lock-step
+  Pace pace = Pace::kRealTime;
+  double actual_speed = 1.0;
+};
+
+struct ProbeHeights {
+  Tick tick = 0;
+  std::vector<float> height_m;
+};
+
+struct Welcome {
+  sea::Recipe recipe;
+  std::uint64_t component_hash = 0;
+  SessionInfo session;
+};
+
+struct Frame {
+  std::int64_t sequence = 0;
+  bool keyframe = false;
+  std::optional<Stamp> stamp;
+  std::optional<ProbeHeights> probes;
+  std::optional<Welcome> welcome;
+  std::optional<std::string> farewell;
+};
+
+std::string EncodeFrame(const Frame& frame);
+
+/// InvalidArgument (DataLoss for bytes that do not parse) naming the field; never crashes on hostile bytes.
+/// A welcome's recipe is validated.
+absl::StatusOr<Frame> DecodeFrame(std::string_view bytes);
+
+}  // namespace onesea::wire
