@@ -34,21 +34,21 @@ struct Voidify {
 
 }  // namespace onesea::internal
 
-#define ONESEA_CHECK(condition)                                                    \
-  (condition) ? (void)0                                                            \
-              : ::onesea::internal::Voidify() &                                    \
+#define ONESEA_CHECK(condition)                 \
+  (condition) ? (void)0                         \
+              : ::onesea::internal::Voidify() & \
                     ::onesea::internal::CheckFailure(__FILE__, __LINE__, #condition).stream()
 
 #define ONESEA_CONCAT_INNER(a, b) a##b
 #define ONESEA_CONCAT(a, b) ONESEA_CONCAT_INNER(a, b)
 
-#define ONESEA_RETURN_IF_ERROR(expression)                       \
-  do {                                                           \
+#define ONESEA_RETURN_IF_ERROR(expression)                                                      \
+  do {                                                                                          \
     if (::absl::Status onesea_status = (expression); !onesea_status.ok()) return onesea_status; \
   } while (false)
 
-#define ONESEA_ASSIGN_OR_RETURN(declaration, expression)                              \
-  auto ONESEA_CONCAT(onesea_or_, __LINE__) = (expression);                            \
-  if (!ONESEA_CONCAT(onesea_or_, __LINE__).ok())                                      \
-    return std::move(ONESEA_CONCAT(onesea_or_, __LINE__)).status();                   \
+#define ONESEA_ASSIGN_OR_RETURN(declaration, expression)            \
+  auto ONESEA_CONCAT(onesea_or_, __LINE__) = (expression);          \
+  if (!ONESEA_CONCAT(onesea_or_, __LINE__).ok())                    \
+    return std::move(ONESEA_CONCAT(onesea_or_, __LINE__)).status(); \
   declaration = std::move(ONESEA_CONCAT(onesea_or_, __LINE__)).value()

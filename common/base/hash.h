@@ -7,7 +7,8 @@
 
 namespace onesea {
 
-/// FNV-1a, 64 bits, over little-endian bytes of values: the same on every machine. Not cryptographic.
+/// FNV-1a, 64 bits, over little-endian bytes of values: the same on every machine. Not
+/// cryptographic.
 ///
 /// Doubles enter as their IEEE-754 bits with -0 read as +0, so equal numbers hash equally.
 /// Source: Fowler, Noll, Vo; offset basis 0xcbf29ce484222325, prime 0x100000001b3.
@@ -16,7 +17,7 @@ class Hash64 {
   void AddByte(std::uint8_t byte) { state_ = (state_ ^ byte) * 0x100000001b3ULL; }
 
   template <typename T>
-    requires std::is_integral_v<T>
+  requires std::is_integral_v<T>
   void Add(T value) {
     auto bits = static_cast<std::make_unsigned_t<T>>(value);
     for (std::size_t i = 0; i < sizeof(T); ++i) {

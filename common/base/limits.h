@@ -2,7 +2,8 @@
 
 #include <cstdint>
 
-/// Every limit that a person or the network can meet, with the reason for its size. Errors print these values.
+/// Every limit that a person or the network can meet, with the reason for its size. Errors print
+/// these values.
 namespace onesea {
 
 // Recipe.
@@ -13,7 +14,8 @@ inline constexpr double kCascadeLengthMinM = 1.0;
 inline constexpr double kCascadeLengthMaxM = 4096.0;
 inline constexpr int kWaveSystemsMax = 8;
 inline constexpr int kRegularWavesMax = 32;
-inline constexpr int kWeatherEntriesMax = 16;   // entries that still matter; older ones are folded away
+inline constexpr int kWeatherEntriesMax =
+    16;  // entries that still matter; older ones are folded away
 inline constexpr int kSpectrumFrequenciesMax = 128;
 inline constexpr int kSpectrumDirectionsMax = 180;
 inline constexpr double kWindSpeedMaxMPerS = 100.0;
@@ -21,7 +23,7 @@ inline constexpr double kHsMaxM = 40.0;
 inline constexpr double kPeriodMinS = 0.1;
 inline constexpr double kPeriodMaxS = 60.0;
 inline constexpr double kDepthMinM = 0.1;
-inline constexpr double kDepthMaxM = 12000.0;   // deeper is infinite for every wave here
+inline constexpr double kDepthMaxM = 12000.0;  // deeper is infinite for every wave here
 inline constexpr double kCurrentMaxMPerS = 10.0;
 inline constexpr double kChoppinessMax = 1.5;
 inline constexpr int kTickRateMaxHz = 1000;
@@ -29,14 +31,14 @@ inline constexpr int kTickRateMaxHz = 1000;
 // Service.
 inline constexpr int kSessionsMax = 64;
 inline constexpr int kSessionNameLengthMax = 64;
-inline constexpr int kQueryPointsMax = 100'000;          // 0.8 MB of request, under gRPC's 4 MB
-inline constexpr double kQueryCoordinateMaxM = 1.0e7;    // a quarter of the way round the globe
-inline constexpr double kQueryTimeMaxS = 3.2e9;          // a century either way of tick 0
+inline constexpr int kQueryPointsMax = 100'000;        // 0.8 MB of request, under gRPC's 4 MB
+inline constexpr double kQueryCoordinateMaxM = 1.0e7;  // a quarter of the way round the globe
+inline constexpr double kQueryTimeMaxS = 3.2e9;        // a century either way of tick 0
 inline constexpr double kQueryDepthMaxM = 12000.0;
 inline constexpr int kViewersPerSessionMax = 4096;
 inline constexpr double kSpeedMin = 0.01;
 inline constexpr double kSpeedMax = 100.0;
-inline constexpr std::int64_t kStepTicksMax = 36'000;    // ten minutes at 60 Hz in one request
+inline constexpr std::int64_t kStepTicksMax = 36'000;  // ten minutes at 60 Hz in one request
 inline constexpr std::int64_t kRecipeBytesMax = 16 * 1024;
 inline constexpr std::int64_t kSpectrumFileBytesMax = 64 * 1024 * 1024;
 

@@ -6,9 +6,9 @@ namespace onesea {
 
 /// Simulated time as an exact count of flicks, 1 flick = 1 / 705 600 000 s.
 ///
-/// The flick divides every usual rate (24, 25, 30, 50, 60, 64, 90, 100, 120, 144, 1000 Hz, ...), so a tick is a
-/// whole number of flicks, a time is never accumulated, and the phase of a wave is one wrapping 64-bit product
-/// (see sea/components.h). The range is ±414 years around tick 0.
+/// The flick divides every usual rate (24, 25, 30, 50, 60, 64, 90, 100, 120, 144, 1000 Hz, ...), so
+/// a tick is a whole number of flicks, a time is never accumulated, and the phase of a wave is one
+/// wrapping 64-bit product (see sea/components.h). The range is ±414 years around tick 0.
 using Tick = std::int64_t;
 
 inline constexpr std::int64_t kFlicksPerSecond = 705'600'000;

@@ -4,7 +4,8 @@
 
 namespace onesea {
 
-/// World frame everywhere: ENU, right-handed; x east, y north, z up [m]; z = 0 is the mean water level.
+/// World frame everywhere: ENU, right-handed; x east, y north, z up [m]; z = 0 is the mean water
+/// level.
 struct Vec2d {
   double x = 0.0;
   double y = 0.0;

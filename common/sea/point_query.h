@@ -23,18 +23,20 @@ enum class QueryDetail : std::uint8_t {
 };
 
 struct SurfaceSample {
-  float height_m = 0.0f;             ///< of the top sheet above (x, y)
-  float displacement_x_m = 0.0f;     ///< from the undisplaced point to (x, y)
+  float height_m = 0.0f;          ///< of the top sheet above (x, y)
+  float displacement_x_m = 0.0f;  ///< from the undisplaced point to (x, y)
   float displacement_y_m = 0.0f;
-  float residual_m = 0.0f;           ///< horizontal miss of the inversion
+  float residual_m = 0.0f;  ///< horizontal miss of the inversion
   float normal_x = 0.0f, normal_y = 0.0f, normal_z = 1.0f;
-  float velocity_x_m_per_s = 0.0f, velocity_y_m_per_s = 0.0f, velocity_z_m_per_s = 0.0f;  ///< with the current
-  bool folded = false;               ///< the surface is multi-valued here; the top sheet answers
+  float velocity_x_m_per_s = 0.0f, velocity_y_m_per_s = 0.0f,
+        velocity_z_m_per_s = 0.0f;  ///< with the current
+  bool folded = false;              ///< the surface is multi-valued here; the top sheet answers
 };
 
 struct DepthSample {
-  Vec3d velocity_m_per_s;         ///< of the water particle, with the current (Airy)
-  double dynamic_pressure_pa = 0; ///< rho g Σ a cosh k(z+h)/cosh kh cos(...), hydrostatic part excluded
+  Vec3d velocity_m_per_s;  ///< of the water particle, with the current (Airy)
+  double dynamic_pressure_pa =
+      0;  ///< rho g Σ a cosh k(z+h)/cosh kh cos(...), hydrostatic part excluded
 };
 
 /// The sea at one instant, ready for many points. Immutable, thread-safe, share it.
@@ -48,11 +50,12 @@ class SeaSnapshot {
   SimTime time() const;
   QueryDetail detail() const;
 
-  /// out[n] answers points[n]. Finite coordinates only (CHECK). Vectorised over points; allocates nothing.
+  /// out[n] answers points[n]. Finite coordinates only (CHECK). Vectorised over points; allocates
+  /// nothing.
   void Sample(std::span<const Vec2d> points, std::span<SurfaceSample> out) const;
 
-  /// Bound [m] of |height_m - exact| for unfolded points: bilinear interpolation plus inversion; see point_query.cc
-  /// for its derivation and for the probability with which it holds.
+  /// Bound [m] of |height_m - exact| for unfolded points: bilinear interpolation plus inversion;
+  /// see point_query.cc for its derivation and for the probability with which it holds.
   double HeightErrorBound() const;
 
  private:
@@ -65,8 +68,8 @@ class SnapshotBuilder {
   explicit SnapshotBuilder(std::shared_ptr<const Components> components,
                            TransformKind transform = TransformKind::kOwn);
   ~SnapshotBuilder();
-  /// Cost: about 0.6 ms for kHeight with the default cascades, one core. Reuses the storage of `recycle` if it is the
-  /// only owner of it.
+  /// Cost: about 0.6 ms for kHeight with the default cascades, one core. Reuses the storage of
+  /// `recycle` if it is the only owner of it.
   std::shared_ptr<const SeaSnapshot> At(SimTime time, QueryDetail detail,
                                         std::shared_ptr<const SeaSnapshot> recycle = nullptr);
 
@@ -75,11 +78,13 @@ class SnapshotBuilder {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Below the surface: the direct sum over every component, exact; about 15 µs a point. `depth_m` >= 0 below z = 0.
+/// Below the surface: the direct sum over every component, exact; about 15 µs a point. `depth_m` >=
+/// 0 below z = 0.
 void SampleAtDepth(const Components& components, SimTime time, std::span<const Vec2d> points,
                    std::span<const double> depth_m, std::span<DepthSample> out);
 
-/// The direct sum in double over every component at undisplaced points: the oracle of the two above. Slow.
+/// The direct sum in double over every component at undisplaced points: the oracle of the two
+/// above. Slow.
 struct DirectSample {
   double height_m = 0, displacement_x_m = 0, displacement_y_m = 0;
   double slope_x = 0, slope_y = 0, jacobian_xx = 0, jacobian_yy = 0, jacobian_xy = 0;

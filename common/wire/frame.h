@@ -15,7 +15,7 @@ namespace onesea::wire {
 struct Stamp {
   Tick tick = 0;
   std::int64_t server_monotonic_ns = 0;  ///< when `tick` was due, server's clock
-  double speed = 1.0;                    ///< sea seconds per real second from here on; 0 when held or in lock-step
+  double speed = 1.0;  ///< sea seconds per real second from here on; 0 when held or in lock-step
   Pace pace = Pace::kRealTime;
   double actual_speed = 1.0;
 };
@@ -42,8 +42,8 @@ struct Frame {
 
 std::string EncodeFrame(const Frame& frame);
 
-/// InvalidArgument (DataLoss for bytes that do not parse) naming the field; never crashes on hostile bytes.
-/// A welcome's recipe is validated.
+/// InvalidArgument (DataLoss for bytes that do not parse) naming the field; never crashes on
+/// hostile bytes. A welcome's recipe is validated.
 absl::StatusOr<Frame> DecodeFrame(std::string_view bytes);
 
 }  // namespace onesea::wire

@@ -6,8 +6,9 @@
 #include "absl/status/statusor.h"
 #include "common/wire/session_spec.h"
 
-/// Session and sea files: the text form of onesea.v1.SessionSpec and onesea.v1.SeaState, with shorthands expanded
-/// (Beaufort, WMO code, `file { path time }` read through common/ingest relative to the file's folder).
+/// Session and sea files: the text form of onesea.v1.SessionSpec and onesea.v1.SeaState, with
+/// shorthands expanded (Beaufort, WMO code, `file { path time }` read through common/ingest
+/// relative to the file's folder).
 namespace onesea::wire {
 
 /// NotFound, or InvalidArgument with file, line, field, value and limit.

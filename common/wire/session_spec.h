@@ -15,13 +15,13 @@ enum class Pace : std::uint8_t { kRealTime = 1, kHeld = 2, kLockStep = 3 };
 
 /// A validated request for a session: every default is filled in.
 struct SessionSpec {
-  std::string name;                      ///< [a-z0-9-]{1,64}
-  sea::Recipe recipe;                    ///< timeline has one entry at tick 0
-  int stream_rate_hz = 30;               ///< divides recipe.tick_rate_hz
-  std::int64_t epoch_utc_ns = 0;         ///< UTC of tick 0; 0: when the session is created
+  std::string name;               ///< [a-z0-9-]{1,64}
+  sea::Recipe recipe;             ///< timeline has one entry at tick 0
+  int stream_rate_hz = 30;        ///< divides recipe.tick_rate_hz
+  std::int64_t epoch_utc_ns = 0;  ///< UTC of tick 0; 0: when the session is created
   std::optional<double> latitude_deg, longitude_deg;
   Pace pace = Pace::kRealTime;
-  double speed = 1.0;                    ///< sea seconds per real second
+  double speed = 1.0;  ///< sea seconds per real second
   std::vector<Vec2d> probes_m;
   int lock_step_participants = 1;
   double lock_step_deadline_s = 10.0;
@@ -32,7 +32,7 @@ struct SessionInfo {
   std::string name;
   Pace pace = Pace::kRealTime;
   double speed = 1.0;
-  double actual_speed = 1.0;             ///< reached over the last second
+  double actual_speed = 1.0;  ///< reached over the last second
   Tick tick = 0;
   int tick_rate_hz = 60;
   int stream_rate_hz = 30;
