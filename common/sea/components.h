@@ -16,13 +16,13 @@
 ///
 ///   symbol  unit     meaning
 ///   k       rad/m    wave vector, world frame (east, north)
-///   ω       rad/s    2π · turns per flick · kFlicksPerSecond, with the Doppler shift k·U, any sign
+///   ω       rad/s    2π · turns per flick · kFlicksPerSecond, Doppler shift k·U included, any sign
 ///   φ       rad      phase at t = 0, from Philox4x32-10 keyed by (seed, cascade, i, j)
 ///   E_m     m²       variance in weather entry m: the integral of its spectrum over cell ∩ band
 ///   w_m     -        WeatherWeights() at t
 ///
-/// A phase is a fraction of a turn in wrapping integer arithmetic: turns(t) = φ - frequency · flicks
-/// (mod 2⁶⁴), so it is exact however long a session runs.
+/// A phase is a fraction of a turn in wrapping integer arithmetic: turns(t) = φ - frequency ·
+/// flicks (mod 2⁶⁴), so it is exact however long a session runs.
 namespace onesea::sea {
 
 /// Structure of arrays; element n of every array is one wave. Order: j outer, i inner, both
