@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "absl/strings/str_format.h"
+#include "client/model/other_sea.h"
 #include "common/base/check.h"
 #include "common/base/limits.h"
 
@@ -14,7 +15,7 @@ namespace {
 absl::Status CheckVersion(const wire::Welcome& welcome) {
   const int version = welcome.recipe.sea_model_version;
   if (version == sea::kSeaModelVersion) return absl::OkStatus();
-  return absl::FailedPreconditionError(absl::StrFormat(
+  return OtherSeaError(absl::StrFormat(
       "session '%s' has sea_model_version %d, this program knows %d: use the server's release",
       welcome.session.name, version, sea::kSeaModelVersion));
 }
@@ -24,7 +25,7 @@ absl::StatusOr<std::shared_ptr<const sea::Components>> BuildSameComponents(
   ONESEA_RETURN_IF_ERROR(CheckVersion(welcome));
   ONESEA_ASSIGN_OR_RETURN(auto components, sea::BuildComponents(welcome.recipe));
   if (components->hash == welcome.component_hash) return components;
-  return absl::FailedPreconditionError(absl::StrFormat(
+  return OtherSeaError(absl::StrFormat(
       "session '%s': this program's component_hash is %016x, the server's is %016x; "
       "it would show another sea and refuses: use the server's release",
       welcome.session.name, components->hash, welcome.component_hash));
