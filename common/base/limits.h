@@ -18,6 +18,7 @@ inline constexpr int kWeatherEntriesMax =
     16;  // entries that still matter; older ones are folded away
 inline constexpr int kSpectrumFrequenciesMax = 128;
 inline constexpr int kSpectrumDirectionsMax = 180;
+inline constexpr int kSeaNameLengthMax = 200;
 inline constexpr double kWindSpeedMaxMPerS = 100.0;
 inline constexpr double kHsMaxM = 40.0;
 inline constexpr double kPeriodMinS = 0.1;
@@ -35,9 +36,18 @@ inline constexpr int kQueryPointsMax = 100'000;        // 0.8 MB of request, und
 inline constexpr double kQueryCoordinateMaxM = 1.0e7;  // a quarter of the way round the globe
 inline constexpr double kQueryTimeMaxS = 3.2e9;        // a century either way of tick 0
 inline constexpr double kQueryDepthMaxM = 12000.0;
+inline constexpr int kQueryDepthPointsMax = 20'000;  // a direct sum each: 0.3 s of one core
+inline constexpr int kProbesMax = 64;
+inline constexpr int kLockStepParticipantsMax = 64;
+inline constexpr int kParticipantNameLengthMax = 64;
+inline constexpr double kLockStepDeadlineMaxS = 3600.0;
+inline constexpr double kWeatherSpanMaxS = 86'400.0;
 inline constexpr int kViewersPerSessionMax = 4096;
 inline constexpr double kSpeedMin = 0.01;
 inline constexpr double kSpeedMax = 100.0;
+inline constexpr double kActualSpeedMax = 1.0e6;  // catching up may exceed kSpeedMax
+inline constexpr std::int64_t kTickMax =
+    3'200'000'000'000;                                 // a century at 1000 Hz; see IsTickInRange
 inline constexpr std::int64_t kStepTicksMax = 36'000;  // ten minutes at 60 Hz in one request
 inline constexpr std::int64_t kRecipeBytesMax = 16 * 1024;
 inline constexpr std::int64_t kSpectrumFileBytesMax = 64 * 1024 * 1024;

@@ -37,6 +37,13 @@ constexpr SimTime TimeOfTick(Tick tick, std::int64_t tick_rate_hz) {
   return {tick * (kFlicksPerSecond / tick_rate_hz)};
 }
 
+/// Within the ±100 years that 64 bits of flicks hold with room for sums? A tick from outside must be asked this first.
+/// Pre: IsTickRateExact(tick_rate_hz).
+constexpr bool IsTickInRange(Tick tick, std::int64_t tick_rate_hz) {
+  constexpr std::int64_t kSecondsMax = 3'200'000'000;
+  return tick >= -kSecondsMax * tick_rate_hz && tick <= kSecondsMax * tick_rate_hz;
+}
+
 /// The last tick at or before `time`.
 constexpr Tick TickAtOrBefore(SimTime time, std::int64_t tick_rate_hz) {
   const std::int64_t per_tick = kFlicksPerSecond / tick_rate_hz;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "absl/status/status.h"
 #include "common/base/vec.h"
 #include "common/sea/recipe.h"
 
@@ -26,6 +27,12 @@ struct SessionSpec {
   int lock_step_participants = 1;
   double lock_step_deadline_s = 10.0;
 };
+
+/// OK, or InvalidArgument (FailedPrecondition: sea_model_version) with field, value and limit.
+absl::Status ValidateSessionSpec(const SessionSpec& spec);
+
+/// Eight places within 400 m of the origin, none on a lattice line of another.
+std::vector<Vec2d> DefaultProbes();
 
 /// What the server tells about a session.
 struct SessionInfo {

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "absl/status/status.h"
+#include "absl/strings/string_view.h"
+
+/// Range checks of numbers that came from people or the network. Every error reads
+/// "timeline[0].sea.systems[1].hs_m: 99 is outside [0, 40]". NaN is outside of every range.
+namespace onesea::wire {
+
+/// Abseil's string_view is its own type in some builds; its StrCat takes no other.
+inline absl::string_view Text(std::string_view text) { return {text.data(), text.size()}; }
+
+absl::Status CheckReal(std::string_view prefix, std::string_view field, double value, double min,
+                       double max);
+absl::Status CheckInteger(std::string_view prefix, std::string_view field, std::int64_t value,
+                          std::int64_t min, std::int64_t max);
+
+/// `size` elements where at most `max` are allowed.
+absl::Status CheckSize(std::string_view prefix, std::string_view field, std::size_t size,
+                       std::size_t max);
+
+}  // namespace onesea::wire

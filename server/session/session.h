@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "absl/status/status.h"
+#include "common/sea/components.h"
+#include "common/wire/session_spec.h"
+
+/// The authoritative state of one session as a pure step: no clock, no thread, no network. Same
+/// spec, same components and same commands at the same ticks give the same state hash at every
+/// tick.
+namespace onesea::server {
+
+class Session {
+ public:
+  /// Pre: `spec` is valid and `components` was built from its recipe.
+  Session(SessionSpec spec, std::shared_ptr<const sea::Components> components);
+
+  /// Advances by one tick.
+  void Step();
+
+  /// Installs components whose recipe is this session's with one more entry, which begins after
+  /// tick(). FailedPrecondition if it does not (time went on while they were built).
+  absl::Status ChangeWeather(std::shared_ptr<const sea::Components> components);
+
+  Tick tick() const { return tick_; }
+  SimTime time() const { return TimeOfTick(tick_, spec_.recipe.tick_rate_hz); }
+  const SessionSpec& spec() const {
+    return spec_;
+  }  ///< as created; the recipe in force is components()->recipe
+  const std::shared_ptr<const sea::Components>& components() const { return components_; }
+
+  /// Over the tick, the component hash and the timeline's ticks.
+  std::uint64_t StateHash() const;
+
+ private:
+  SessionSpec spec_;
+  std::shared_ptr<const sea::Components> components_;
+  Tick tick_ = 0;
+};
+
+}  // namespace onesea::server

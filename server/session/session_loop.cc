@@ -1,0 +1,235 @@
+#include "server/session/session_loop.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "absl/time/time.h"
+#include "common/base/check.h"
+#include "common/base/limits.h"
+#include "common/wire/bounds.h"
+#include "common/wire/recipe_codec.h"
+
+namespace onesea::server {
+namespace {
+
+// Ticks shorter than this are made in small batches: a thread can't be woken more often for good.
+constexpr std::int64_t kWaitMinNs = 500'000;
+// How far ahead a change of weather without a start begins, so that every viewer has built the new sea before.
+constexpr double kWeatherLeadS = 0.5;
+constexpr int kWeatherAttempts = 4;
+
+void RunAll(SessionRunner::Deferred& deferred) {
+  for (const std::function<void()>& call : deferred) call();
+}
+
+}  // namespace
+
+SessionLoop::SessionLoop(SessionSpec spec, std::shared_ptr<const sea::Components> components,
+                         const Clock& clock, sea::TransformKind transform)
+    : name_(spec.name),
+      tick_rate_hz_(spec.recipe.tick_rate_hz),
+      clock_(clock),
+      runner_(std::move(spec), std::move(components), transform, clock.MonotonicNs()) {
+  {
+    absl::MutexLock lock(&mutex_);
+    PublishView();
+  }
+  thread_ = std::thread([this] { Run(); });
+}
+
+SessionLoop::~SessionLoop() { Close("the server stops"); }
+
+void SessionLoop::Run() {
+  SessionRunner::Deferred deferred;
+  while (true) {
+    {
+      absl::MutexLock lock(&mutex_);
+      if (closed_) return;
+      disturbed_ = false;
+      const std::int64_t wake_ns = runner_.Advance(clock_.MonotonicNs(), deferred);
+      PublishView();
+      const std::int64_t now_ns = clock_.MonotonicNs();
+      if (deferred.empty() && wake_ns > now_ns) {
+        const auto wait = absl::Nanoseconds(std::max(wake_ns - now_ns, kWaitMinNs));
+        if (!disturbed_) changed_.WaitWithTimeout(&mutex_, wait);
+      }
+    }
+    RunAll(deferred);
+    deferred.clear();
+  }
+}
+
+void SessionLoop::PublishView() {
+  absl::MutexLock lock(&view_mutex_);
+  view_.tick = runner_.session().tick();
+  if (view_.components != runner_.session().components()) {
+    view_.components = runner_.session().components();
+  }
+}
+
+absl::Status SessionLoop::OpenStatus() const {
+  if (!closed_) return absl::OkStatus();
+  return absl::NotFoundError(absl::StrCat("session: '", name_, "' has ended"));
+}
+
+SessionView SessionLoop::View() const {
+  absl::MutexLock lock(&view_mutex_);
+  return view_;
+}
+
+SessionInfo SessionLoop::Info() const {
+  SessionInfo info;
+  {
+    absl::MutexLock lock(&mutex_);
+    info = runner_.Info();
+  }
+  info.viewer_count = viewer_count_.load();
+  return info;
+}
+
+StateHashes SessionLoop::Hashes() const {
+  absl::MutexLock lock(&mutex_);
+  const Session& session = runner_.session();
+  return {session.tick(), session.StateHash(), session.components()->hash};
+}
+
+Tick SessionLoop::DefaultStartTick() const {
+  const Tick next = runner_.session().tick() + 1;
+  if (runner_.pace() != Pace::kRealTime) return next;
+  return next + static_cast<Tick>(kWeatherLeadS * tick_rate_hz_ * runner_.speed());
+}
+
+absl::StatusOr<WeatherSpan> SessionLoop::ChangeWeather(const WeatherRequest& request) {
+  const std::int64_t span_max = static_cast<std::int64_t>(kWeatherSpanMaxS) * tick_rate_hz_;
+  ONESEA_RETURN_IF_ERROR(wire::CheckInteger("", "span_ticks", request.span_ticks, 0, span_max));
+  absl::MutexLock one_at_a_time(&weather_mutex_);
+  absl::Status status;
+  for (int attempt = 0; attempt < kWeatherAttempts; ++attempt) {
+    sea::Recipe recipe;
+    Tick start_tick = 0;
+    {
+      absl::MutexLock lock(&mutex_);
+      ONESEA_RETURN_IF_ERROR(OpenStatus());
+      recipe = runner_.session().components()->recipe;
+      // A slow build may overtake the default start: try again with more lead.
+      start_tick = request.start_tick.value_or(DefaultStartTick());
+      if (!request.start_tick) start_tick += (start_tick - runner_.session().tick() - 1) * attempt;
+      if (!IsTickInRange(start_tick, tick_rate_hz_) || start_tick <= runner_.session().tick()) {
+        return absl::InvalidArgumentError(absl::StrCat("start_tick: ", start_tick,
+                                                       " is not after the present tick ",
+                                                       runner_.session().tick()));
+      }
+    }
+    ONESEA_RETURN_IF_ERROR(
+        sea::AppendWeather(recipe, {start_tick, request.span_ticks, request.sea}));
+    ONESEA_RETURN_IF_ERROR(sea::ValidateRecipe(recipe));
+    ONESEA_RETURN_IF_ERROR(wire::CheckRecipeBytes(recipe));
+    ONESEA_ASSIGN_OR_RETURN(auto components, sea::BuildComponents(recipe));
+    absl::MutexLock lock(&mutex_);
+    ONESEA_RETURN_IF_ERROR(OpenStatus());
+    status = runner_.ChangeWeather(std::move(components), clock_.MonotonicNs());
+    PublishView();
+    if (status.ok()) return WeatherSpan{start_tick, start_tick + request.span_ticks};
+    if (request.start_tick) break;
+  }
+  return status;
+}
+
+absl::StatusOr<Tick> SessionLoop::Hold() {
+  absl::MutexLock lock(&mutex_);
+  ONESEA_RETURN_IF_ERROR(OpenStatus());
+  ONESEA_RETURN_IF_ERROR(runner_.Hold(clock_.MonotonicNs()));
+  disturbed_ = true;
+  changed_.Signal();
+  return runner_.session().tick();
+}
+
+absl::StatusOr<Tick> SessionLoop::Resume() {
+  SessionRunner::Deferred deferred;
+  Tick tick = 0;
+  {
+    absl::MutexLock lock(&mutex_);
+    ONESEA_RETURN_IF_ERROR(OpenStatus());
+    ONESEA_RETURN_IF_ERROR(runner_.Resume(clock_.MonotonicNs(), deferred));
+    tick = runner_.session().tick();
+    disturbed_ = true;
+    changed_.Signal();
+  }
+  RunAll(deferred);
+  return tick;
+}
+
+absl::Status SessionLoop::SetSpeed(double speed) {
+  absl::MutexLock lock(&mutex_);
+  ONESEA_RETURN_IF_ERROR(OpenStatus());
+  ONESEA_RETURN_IF_ERROR(runner_.SetSpeed(speed, clock_.MonotonicNs()));
+  disturbed_ = true;
+  changed_.Signal();
+  return absl::OkStatus();
+}
+
+std::uint64_t SessionLoop::Step(const StepRequest& request, StepDone done) {
+  SessionRunner::Deferred deferred;
+  std::uint64_t ticket = 0;
+  {
+    absl::MutexLock lock(&mutex_);
+    if (const absl::Status open = OpenStatus(); !open.ok()) {
+      deferred.push_back([done, open] { done(open); });
+    } else {
+      ticket = runner_.Step(request, std::move(done), clock_.MonotonicNs(), deferred);
+      disturbed_ = true;
+      changed_.Signal();
+    }
+  }
+  RunAll(deferred);
+  return ticket;
+}
+
+void SessionLoop::CancelStep(std::uint64_t ticket) {
+  SessionRunner::Deferred deferred;
+  {
+    absl::MutexLock lock(&mutex_);
+    runner_.CancelStep(ticket, deferred);
+  }
+  RunAll(deferred);
+}
+
+void SessionLoop::AddObserver(std::shared_ptr<SessionObserver> observer) {
+  absl::MutexLock lock(&mutex_);
+  if (closed_) {
+    observer->OnClosed("the session has ended");
+    return;
+  }
+  runner_.AddObserver(std::move(observer));
+  disturbed_ = true;
+  changed_.Signal();
+}
+
+void SessionLoop::RemoveObserver(const SessionObserver* observer) {
+  absl::MutexLock lock(&mutex_);
+  runner_.RemoveObserver(observer);
+}
+
+bool SessionLoop::TryAddViewer() {
+  if (viewer_count_.fetch_add(1) < kViewersPerSessionMax) return true;
+  viewer_count_.fetch_sub(1);
+  return false;
+}
+
+void SessionLoop::RemoveViewer() { viewer_count_.fetch_sub(1); }
+
+void SessionLoop::Close(std::string_view reason) {
+  SessionRunner::Deferred deferred;
+  {
+    absl::MutexLock lock(&mutex_);
+    if (!closed_) runner_.Close(reason, deferred);
+    closed_ = true;
+    changed_.Signal();
+  }
+  RunAll(deferred);
+  absl::MutexLock lock(&join_mutex_);
+  if (thread_.joinable()) thread_.join();
+}
+
+}  // namespace onesea::server

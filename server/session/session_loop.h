@@ -1,0 +1,120 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <thread>
+
+#include "absl/base/thread_annotations.h"
+#include "absl/status/statusor.h"
+#include "absl/synchronization/mutex.h"
+#include "common/base/clock.h"
+#include "common/sea/surface.h"
+#include "server/session/lock_step.h"
+#include "server/session/session_observer.h"
+#include "server/session/session_runner.h"
+
+/// One session on its own thread.
+namespace onesea::server {
+
+/// What a query needs to know: which sea, and when is now.
+struct SessionView {
+  Tick tick = 0;
+  std::shared_ptr<const sea::Components> components;
+};
+
+struct WeatherRequest {
+  sea::SeaState sea;
+  std::int64_t span_ticks = 0;
+  std::optional<Tick> start_tick;  ///< default: the next tick; in real time, half a second ahead,
+                                   ///< so that every viewer has built the new sea before it begins
+};
+
+struct WeatherSpan {
+  Tick start_tick = 0;
+  Tick end_tick = 0;
+};
+
+struct StateHashes {
+  Tick tick = 0;
+  std::uint64_t state_hash = 0;
+  std::uint64_t component_hash = 0;
+};
+
+/// Thread-safe. Commands take effect at once, between two ticks; after Close() they answer
+/// NotFound.
+class SessionLoop {
+ public:
+  /// Starts the thread. Pre: as Session's constructor. `clock` outlives the loop.
+  SessionLoop(SessionSpec spec, std::shared_ptr<const sea::Components> components,
+              const Clock& clock, sea::TransformKind transform);
+  ~SessionLoop();
+
+  const std::string& name() const { return name_; }
+  int tick_rate_hz() const { return tick_rate_hz_; }
+
+  SessionInfo Info() const;
+  /// Never waits for the work of a tick.
+  SessionView View() const;
+  StateHashes Hashes() const;
+
+  /// Builds the new components on the caller's thread (tens of milliseconds a wave system), then
+  /// installs them. InvalidArgument, or FailedPrecondition if `start_tick` went by while they were
+  /// built.
+  absl::StatusOr<WeatherSpan> ChangeWeather(const WeatherRequest& request);
+
+  /// FailedPrecondition in lock-step. Idempotent. Answers the tick at which it stands or goes on.
+  absl::StatusOr<Tick> Hold();
+  absl::StatusOr<Tick> Resume();
+  /// InvalidArgument outside [kSpeedMin, kSpeedMax]; FailedPrecondition in lock-step.
+  absl::Status SetSpeed(double speed);
+
+  /// Advances a held or lock-step session; `done` is called once, on the session's thread (or on
+  /// this one for an error that is known at once). In lock-step with several participants it waits
+  /// for the others up to the deadline. Returns a ticket for CancelStep, 0 if done was called
+  /// already.
+  std::uint64_t Step(const StepRequest& request, StepDone done);
+  /// Takes a waiting participant out of the barrier; its `done` gets Cancelled. Nothing if it is
+  /// too late.
+  void CancelStep(std::uint64_t ticket);
+
+  /// The observer gets OnWelcomeChanged from inside this call, or OnClosed if the session is
+  /// closed.
+  void AddObserver(std::shared_ptr<SessionObserver> observer);
+  /// After it returns no more calls arrive.
+  void RemoveObserver(const SessionObserver* observer);
+
+  /// Counts viewers for SessionInfo and the limit kViewersPerSessionMax.
+  bool TryAddViewer();
+  void RemoveViewer();
+
+  /// Ends the session: observers get OnClosed(reason), waiting steps get NotFound. Idempotent;
+  /// joins the thread, so never from an observer or a StepDone.
+  void Close(std::string_view reason);
+
+ private:
+  void Run();
+  void PublishView() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  absl::Status OpenStatus() const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  Tick DefaultStartTick() const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+
+  const std::string name_;
+  const int tick_rate_hz_;
+  const Clock& clock_;
+  absl::Mutex weather_mutex_ ABSL_ACQUIRED_BEFORE(mutex_);  // one change of weather at a time
+  mutable absl::Mutex mutex_ ABSL_ACQUIRED_BEFORE(view_mutex_);
+  absl::CondVar changed_;
+  SessionRunner runner_ ABSL_GUARDED_BY(mutex_);
+  bool closed_ ABSL_GUARDED_BY(mutex_) = false;
+  bool disturbed_ ABSL_GUARDED_BY(mutex_) = false;  // a command came: recompute when to wake
+  mutable absl::Mutex view_mutex_;
+  SessionView view_ ABSL_GUARDED_BY(view_mutex_);
+  std::atomic<int> viewer_count_{0};
+  absl::Mutex join_mutex_;
+  std::thread thread_;
+};
+
+}  // namespace onesea::server
