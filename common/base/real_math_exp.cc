@@ -74,7 +74,8 @@ Binary SplitAtSqrtHalf(double x) {
   return {mantissa, exponent};
 }
 
-// (ln((1+s)/(1-s)) - 2s - 2s³/3) / s⁵ as a series in z = s². |s| <= 0.1716: within 1e-18 of the logarithm.
+// (ln((1+s)/(1-s)) - 2s - 2s³/3) / s⁵ as a series in z = s². |s| <= 0.1716: within 1e-18 of the
+// logarithm.
 double AtanhTail(double z) {
   double p = 2.0 / 25.0;
   p = 2.0 / 23.0 + z * p;

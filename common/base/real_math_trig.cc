@@ -64,8 +64,9 @@ DoubleDouble FractionOf(Bits192 f) {
   return {hi * unit, lo * (unit * 0x1p-53)};
 }
 
-// Payne & Hanek 1983 in integers: x = m 2^e with a 53-bit m; only 192 bits of 2/π matter, since higher ones
-// give whole turns and lower ones less than 2^-137. One path serves every |x| >= π/4, up to 1.8e308.
+// Payne & Hanek 1983 in integers: x = m 2^e with a 53-bit m; only 192 bits of 2/π matter, since
+// higher ones give whole turns and lower ones less than 2^-137. One path serves every |x| >= π/4,
+// up to 1.8e308.
 Reduced ReduceByHalfPi(double x) {
   using Wide = unsigned __int128;
   const auto bits = std::bit_cast<std::uint64_t>(x);

@@ -5,11 +5,12 @@
 
 namespace onesea {
 
-/// Philox4x32-10: a counter-based generator. The same key and counter give the same four words on every machine, so a
-/// wave's random numbers depend on what it is, not on when or in which order it was made.
+/// Philox4x32-10: a counter-based generator. The same key and counter give the same four words on
+/// every machine, so a wave's random numbers depend on what it is, not on when or in which order it
+/// was made.
 ///
-/// Source: Salmon, Moraes, Dror, Shaw, "Parallel random numbers: as easy as 1, 2, 3", SC'11. Checked against the
-/// authors' known answers in tests/base/rng_test.cc.
+/// Source: Salmon, Moraes, Dror, Shaw, "Parallel random numbers: as easy as 1, 2, 3", SC'11.
+/// Checked against the authors' known answers in tests/base/rng_test.cc.
 constexpr std::array<std::uint32_t, 4> Philox4x32(std::array<std::uint32_t, 4> counter,
                                                   std::array<std::uint32_t, 2> key) {
   for (int round = 0; round < 10; ++round) {

@@ -10,7 +10,8 @@
 
 #include "common/base/rng.h"
 
-// Oracle: the C library in long double, whose 64-bit mantissa shows errors far below one ulp of double.
+// Oracle: the C library in long double, whose 64-bit mantissa shows errors far below one ulp of
+// double.
 static_assert(LDBL_MANT_DIG >= 64, "the oracle needs more bits than double");
 
 namespace onesea::real {
