@@ -1,0 +1,100 @@
+#include "server/stream/frame_builder.h"
+
+#include <utility>
+
+#include "common/base/check.h"
+
+namespace onesea::server {
+
+std::int64_t EveryFrameSpacingNs(int stream_rate_hz) {
+  return 750'000'000 / static_cast<std::int64_t>(stream_rate_hz);
+}
+
+std::int64_t FrameBuilder::SpacingNs() const {
+  return audience_ == Audience::kStamps ? kStampSpacingNs
+                                        : EveryFrameSpacingNs(welcome_->session.stream_rate_hz);
+}
+
+void FrameBuilder::OnWelcome(std::shared_ptr<const wire::Welcome> welcome) {
+  const bool first = welcome_ == nullptr;
+  welcome_ = std::move(welcome);
+  keyframe_.reset();
+  if (first || !stamp_.has_value()) return;
+  ++sequence_;
+  newest_ = Keyframe();
+  told_ = stamp_;
+  probes_owed_ = held_back_ = false;
+}
+
+bool FrameBuilder::OnTick(const TickEvent& event, bool anybody_watches) {
+  ONESEA_CHECK(welcome_ != nullptr) << "a tick before the welcome";
+  const bool changed =
+      !stamp_.has_value() || event.stamp.speed != stamp_->speed || event.stamp.pace != stamp_->pace;
+  stamp_ = event.stamp;
+  keyframe_.reset();
+  if (event.probes != nullptr) {
+    probes_ = *event.probes;
+    probes_owed_ = true;
+  }
+  const bool wanted =
+      event.stamp_instant || (audience_ == Audience::kEveryFrame && event.stream_instant);
+  if (!wanted || !anybody_watches) return false;
+  if (!changed && told_.has_value() &&
+      stamp_->server_monotonic_ns - told_->server_monotonic_ns < SpacingNs()) {
+    held_back_ = true;
+    return false;
+  }
+  Emit();
+  return true;
+}
+
+bool FrameBuilder::Flush(std::int64_t now_ns) {
+  if (!held_back_ || now_ns - told_->server_monotonic_ns < SpacingNs()) return false;
+  Emit();
+  return true;
+}
+
+void FrameBuilder::OnClosed(std::string reason) {
+  farewell_ = std::move(reason);
+  keyframe_.reset();
+  Emit();
+}
+
+void FrameBuilder::Emit() {
+  wire::Frame frame;
+  frame.sequence = ++sequence_;
+  frame.stamp = stamp_;
+  if (probes_owed_) frame.probes = probes_;
+  frame.farewell = farewell_;
+  told_ = stamp_;
+  probes_owed_ = held_back_ = false;
+  keyframe_.reset();
+  newest_ = std::make_shared<EncodedFrame>(EncodedFrame{sequence_, wire::EncodeFrame(frame)});
+}
+
+wire::Frame FrameBuilder::Keyframed() const {
+  wire::Frame frame;
+  frame.sequence = sequence_;
+  frame.keyframe = true;
+  frame.stamp = stamp_;
+  frame.probes = probes_;
+  frame.farewell = farewell_;
+  if (welcome_ == nullptr) return frame;
+  frame.welcome = *welcome_;
+  if (stamp_.has_value()) {
+    frame.welcome->session.tick = stamp_->tick;
+    frame.welcome->session.pace = stamp_->pace;
+    frame.welcome->session.actual_speed = stamp_->actual_speed;
+  }
+  return frame;
+}
+
+const FramePtr& FrameBuilder::Keyframe() {
+  if (keyframe_ == nullptr) {
+    keyframe_ =
+        std::make_shared<EncodedFrame>(EncodedFrame{sequence_, wire::EncodeFrame(Keyframed())});
+  }
+  return keyframe_;
+}
+
+}  // namespace onesea::server
