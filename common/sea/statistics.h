@@ -4,12 +4,13 @@
 
 namespace onesea::sea {
 
-/// The figures by which seas are compared, of a spectrum over the frequencies it states (without the tail that
-/// add_tail puts above them).
+/// The figures by which seas are compared, of a spectrum over the frequencies it states (without
+/// the tail that add_tail puts above them).
 ///
 ///   m_n = ∫ fⁿ S(f) df,   a = ∫∫ S cos θ dθ df,   b = ∫∫ S sin θ dθ df
 ///
-/// Periods are 0 for a spectrum without energy. Source: moments as in Longuet-Higgins 1957; spread as in Kuik et al. 1988.
+/// Periods are 0 for a spectrum without energy. Source: moments as in Longuet-Higgins 1957; spread
+/// as in Kuik et al. 1988.
 struct SpectrumStatistics {
   double hs_m = 0.0;              ///< 4 √m0; the spectrum's own hs_m where it is given
   double tp_s = 0.0;              ///< centre of the highest band
@@ -23,8 +24,9 @@ struct SpectrumStatistics {
   double peak_wave_to_rad = 0.0;  ///< mean direction of the highest band
 };
 
-/// Trapezoids over frequency; over direction cells that reach half-way to the neighbours. Sizes must be consistent, as
-/// ValidateSeaState() checks. O(values), no allocation but for O(frequencies).
+/// Trapezoids over frequency; over direction cells that reach half-way to the neighbours. Sizes
+/// must be consistent, as ValidateSeaState() checks. O(values), no allocation but for
+/// O(frequencies).
 SpectrumStatistics ComputeStatistics(const BuoySpectrum& spectrum);
 SpectrumStatistics ComputeStatistics(const GridSpectrum& spectrum);
 

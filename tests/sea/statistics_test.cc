@@ -11,7 +11,8 @@ namespace {
 
 constexpr double kDeg = kPi / 180.0;
 
-// A box of density S over [0.1, 0.3] Hz: m0 = 0.2 S, m1 = 0.04 S, m2 = (0.027 - 0.001)/3 S, m-1 = ln 3 S.
+// A box of density S over [0.1, 0.3] Hz: m0 = 0.2 S, m1 = 0.04 S, m2 = (0.027 - 0.001)/3 S, m-1 =
+// ln 3 S.
 BuoySpectrum Box() {
   BuoySpectrum box;
   for (int i = 0; i <= 200; ++i) {
