@@ -59,6 +59,7 @@ class SeaSnapshot {
   double HeightErrorBound() const;
 
  private:
+  friend class SnapshotBuilder;
   std::unique_ptr<const Impl> impl_;
 };
 

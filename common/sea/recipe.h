@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "absl/status/status.h"
@@ -69,6 +70,8 @@ absl::Status ValidateRecipe(const Recipe& recipe);
 /// entry n moves the mix by sin²θ, θ = (π/2)(3u² - 2u³), u = (t - start)/span clamped to [0, 1].
 /// Source: docs/determinism.md (contract 5). Exact bits on every machine.
 std::vector<double> WeatherWeights(const Recipe& recipe, SimTime time);
+/// The same into storage that the caller keeps. Pre: weights.size() == recipe.timeline.size().
+void WeatherWeights(const Recipe& recipe, SimTime time, std::span<double> weights);
 
 /// Appends a change that begins at `start_tick`, and folds away entries that no longer matter at
 /// `start_tick` - 1 h. InvalidArgument if `start_tick` lies before the last entry's start, or the

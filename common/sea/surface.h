@@ -3,9 +3,10 @@
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <vector>
+#include <string>
 
 #include "common/base/sim_time.h"
+#include "common/sea/aligned.h"
 #include "common/sea/components.h"
 
 /// Synthesis: components -> fields on an N x N grid of each cascade at any time.
@@ -13,6 +14,9 @@
 /// Layout of every plane: float, (N x N) row-major, element [y * N + x] belongs to the cascade's
 /// local point (x, y) * length / N; world point = R(rotation) local. Vector fields are in *world*
 /// axes. Planes are periodic.
+///
+/// Regular waves (Components::regular) lie off every lattice: they are not in the planes. Point
+/// queries and direct sums add them at each point, a renderer at each vertex.
 ///
 /// Bits: with TransformKind::kOwn every plane has the same bits on every machine and SIMD width
 /// (fixed order of operations, no fused multiply-add). With kFftw within 2e-6 of the field's RMS of
@@ -47,6 +51,13 @@ inline constexpr FieldSet kVelocityFields =
 
 enum class TransformKind : std::uint8_t { kOwn = 1, kFftw = 2 };
 
+/// False for kFftw in a build without ONESEA_WITH_FFTW; asking for it there is a CHECK failure.
+bool TransformAvailable(TransformKind kind);
+
+/// "own", or "fftw <version> wisdom <hash>": whatever decides the bits of the planes. Pre:
+/// TransformAvailable(kind).
+std::string TransformName(TransformKind kind);
+
 /// The fields of one cascade at one time.
 class CascadeFields {
  public:
@@ -59,9 +70,11 @@ class CascadeFields {
   std::span<float> MutablePlane(Field field);
 
  private:
+  std::size_t plane_floats() const { return static_cast<std::size_t>(grid_size_) * grid_size_; }
+
   int grid_size_;
   FieldSet fields_;
-  std::vector<std::vector<float>> planes_;
+  AlignedArray<float> planes_;  // one after another in the order of Field
 };
 
 /// Evaluates one cascade. Not thread-safe (owns scratch); make one per thread and cascade.

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "absl/strings/str_cat.h"
+#include "common/base/check.h"
 #include "common/base/limits.h"
 #include "common/base/real_math.h"
 #include "common/sea/constants.h"
@@ -28,15 +29,20 @@ double ShareAt(const WeatherEntry& entry, const Recipe& recipe, SimTime time) {
 
 }  // namespace
 
-std::vector<double> WeatherWeights(const Recipe& recipe, SimTime time) {
-  std::vector<double> weights(recipe.timeline.size(), 0.0);
-  if (weights.empty()) return weights;
+void WeatherWeights(const Recipe& recipe, SimTime time, std::span<double> weights) {
+  ONESEA_CHECK(weights.size() == recipe.timeline.size());
+  if (weights.empty()) return;
   weights[0] = 1.0;
   for (std::size_t n = 1; n < weights.size(); ++n) {
     const double share = ShareAt(recipe.timeline[n], recipe, time);
     for (std::size_t m = 0; m < n; ++m) weights[m] *= 1.0 - share;
     weights[n] = share;
   }
+}
+
+std::vector<double> WeatherWeights(const Recipe& recipe, SimTime time) {
+  std::vector<double> weights(recipe.timeline.size(), 0.0);
+  WeatherWeights(recipe, time, weights);
   return weights;
 }
 

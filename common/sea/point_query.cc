@@ -1,0 +1,168 @@
+#include "common/sea/point_query.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "common/base/check.h"
+#include "common/sea/constants.h"
+#include "common/sea/query_kernel.h"
+#include "common/sea/sheet_search.h"
+#include "common/sea/wave_frame.h"
+
+namespace onesea::sea {
+
+namespace {
+
+// Beyond this a double no longer resolves a tenth of a micrometre; far above kQueryCoordinateMaxM.
+constexpr double kCoordinateMaxM = 1.0e9;
+
+FieldSet FieldsFor(QueryDetail detail) {
+  switch (detail) {
+    case QueryDetail::kHeight:
+      return kQueryFields;
+    case QueryDetail::kNormal:
+      return kQueryFields | kNormalFields;
+    case QueryDetail::kVelocity:
+      return kQueryFields | kNormalFields | kVelocityFields;
+  }
+  ONESEA_CHECK(false) << "detail " << static_cast<int>(detail);
+  return 0;
+}
+
+QueryRegular MakeRegular(const RegularAt& wave, const Recipe& recipe) {
+  const double k =
+      std::sqrt(wave.kx_rad_per_m * wave.kx_rad_per_m + wave.ky_rad_per_m * wave.ky_rad_per_m);
+  const double ux = wave.kx_rad_per_m / k, uy = wave.ky_rad_per_m / k;
+  const double decay = DepthDecay(k, recipe.depth_m);
+  const double horizontal = wave.sigma_rad_per_s * (1.0 + decay) / (1.0 - decay);
+  QueryRegular regular{.wave = wave,
+                       .kx_turns_per_m = static_cast<float>(wave.kx_rad_per_m / (2.0 * kPi)),
+                       .ky_turns_per_m = static_cast<float>(wave.ky_rad_per_m / (2.0 * kPi)),
+                       .amplitude_m = static_cast<float>(wave.amplitude_m)};
+  const auto set = [&](Field field, double factor) {
+    regular.factors[static_cast<int>(field)] = static_cast<float>(wave.amplitude_m * factor);
+  };
+  const double lambda = recipe.choppiness;
+  set(Field::kHeight, 1.0);
+  set(Field::kDisplacementX, lambda * ux);
+  set(Field::kDisplacementY, lambda * uy);
+  set(Field::kSlopeX, wave.kx_rad_per_m);
+  set(Field::kSlopeY, wave.ky_rad_per_m);
+  set(Field::kJacobianXX, -lambda * wave.kx_rad_per_m * ux);
+  set(Field::kJacobianYY, -lambda * wave.ky_rad_per_m * uy);
+  set(Field::kJacobianXY, -lambda * wave.kx_rad_per_m * uy);
+  set(Field::kVelocityX, horizontal * ux);
+  set(Field::kVelocityY, horizontal * uy);
+  set(Field::kVelocityZ, -wave.sigma_rad_per_s);
+  return regular;
+}
+
+}  // namespace
+
+struct SeaSnapshot::Impl {
+  SimTime time;
+  QueryDetail detail = QueryDetail::kHeight;
+  std::shared_ptr<const Components> components;
+  std::vector<CascadeFields> fields;
+  QueryGrids grids;
+  double height_error_bound_m = 0.0;
+};
+
+SeaSnapshot::SeaSnapshot(std::unique_ptr<const Impl> impl) : impl_(std::move(impl)) {}
+SeaSnapshot::~SeaSnapshot() = default;
+SimTime SeaSnapshot::time() const { return impl_->time; }
+QueryDetail SeaSnapshot::detail() const { return impl_->detail; }
+double SeaSnapshot::HeightErrorBound() const { return impl_->height_error_bound_m; }
+
+void SeaSnapshot::Sample(std::span<const Vec2d> points, std::span<SurfaceSample> out) const {
+  ONESEA_CHECK(points.size() == out.size())
+      << points.size() << " points, " << out.size() << " answers";
+  for (const Vec2d& point : points) {
+    ONESEA_CHECK(std::abs(point.x) <= kCoordinateMaxM && std::abs(point.y) <= kCoordinateMaxM)
+        << "point (" << point.x << ", " << point.y << "); callers validate";
+  }
+  std::array<bool, kQueryBlock> suspicious;
+  for (std::size_t start = 0; start < points.size(); start += kQueryBlock) {
+    const std::size_t count = std::min<std::size_t>(kQueryBlock, points.size() - start);
+    const auto block_points = points.subspan(start, count);
+    const auto block_out = out.subspan(start, count);
+    SampleBlock(impl_->grids, block_points, block_out, std::span(suspicious).first(count));
+    for (std::size_t n = 0; n < count; ++n) {
+      if (suspicious[n]) FindTopSheet(impl_->grids, block_points[n], block_out[n]);
+    }
+    if (impl_->detail != QueryDetail::kHeight) FinishBlock(impl_->grids, block_points, block_out);
+  }
+}
+
+struct SnapshotBuilder::Impl {
+  std::shared_ptr<const Components> components;
+  TransformKind transform;
+  // One per detail and cascade, made when first asked for.
+  std::array<std::vector<Synthesiser>, 3> synthesisers;
+  std::vector<double> weights;
+  std::vector<RegularAt> regular;
+};
+
+SnapshotBuilder::SnapshotBuilder(std::shared_ptr<const Components> components,
+                                 TransformKind transform)
+    : impl_(std::make_unique<Impl>()) {
+  ONESEA_CHECK(components != nullptr);
+  impl_->weights.resize(components->recipe.timeline.size());
+  impl_->components = std::move(components);
+  impl_->transform = transform;
+}
+
+SnapshotBuilder::~SnapshotBuilder() = default;
+
+std::shared_ptr<const SeaSnapshot> SnapshotBuilder::At(SimTime time, QueryDetail detail,
+                                                       std::shared_ptr<const SeaSnapshot> recycle) {
+  const Components& components = *impl_->components;
+  std::vector<Synthesiser>& synthesisers = impl_->synthesisers[static_cast<int>(detail) - 1];
+  const FieldSet wanted = FieldsFor(detail);
+  if (synthesisers.empty()) {
+    for (std::size_t c = 0; c < components.cascades.size(); ++c) {
+      const int size = components.cascades[c].cascade.query_grid_size;
+      synthesisers.emplace_back(impl_->components, static_cast<int>(c), size, wanted,
+                                impl_->transform);
+    }
+  }
+  auto snapshot = std::make_unique<SeaSnapshot::Impl>();
+  if (recycle != nullptr && recycle.use_count() == 1 && recycle->detail() == detail &&
+      recycle->impl_->components == impl_->components) {
+    // Nobody else can see it, so its storage is ours.
+    snapshot->fields = std::move(const_cast<SeaSnapshot::Impl&>(*recycle->impl_).fields);
+  } else {
+    for (const CascadeComponents& cascade : components.cascades) {
+      snapshot->fields.emplace_back(cascade.cascade.query_grid_size, wanted);
+    }
+  }
+  snapshot->time = time;
+  snapshot->detail = detail;
+  snapshot->components = impl_->components;
+  snapshot->grids.detail = detail;
+  snapshot->grids.current_m_per_s = components.recipe.current_m_per_s;
+  for (std::size_t c = 0; c < components.cascades.size(); ++c) {
+    synthesisers[c].Evaluate(time, snapshot->fields[c]);
+    const CascadeFrame frame(components.cascades[c].cascade);
+    QueryCascade grid{.grid_size = components.cascades[c].cascade.query_grid_size,
+                      .cosine = frame.cosine,
+                      .sine = frame.sine};
+    grid.cells_per_m = grid.grid_size / frame.length_m;
+    for (int f = 0; f < kFieldCount; ++f) {
+      const auto field = static_cast<Field>(f);
+      if (snapshot->fields[c].Has(field)) grid.planes[f] = snapshot->fields[c].Plane(field).data();
+    }
+    snapshot->grids.cascades.push_back(grid);
+  }
+  WeatherWeights(components.recipe, time, impl_->weights);
+  RegularWavesAt(components, time, impl_->weights, impl_->regular);
+  for (const RegularAt& wave : impl_->regular) {
+    if (wave.amplitude_m > 0.0)
+      snapshot->grids.regular.push_back(MakeRegular(wave, components.recipe));
+  }
+  return std::make_shared<const SeaSnapshot>(std::move(snapshot));
+}
+
+}  // namespace onesea::sea
