@@ -101,7 +101,7 @@ absl::StatusOr<double> LocalSea::CompareProbes(const wire::ProbeHeights& probes)
                         probes.height_m.size(), places.size()));
   }
   const int tick_rate_hz = version->components->recipe.tick_rate_hz;
-  if (std::abs(static_cast<double>(probes.tick)) > kQueryTimeMaxS * tick_rate_hz) {
+  if (!IsTickInRange(probes.tick, tick_rate_hz)) {
     return absl::InvalidArgumentError(
         absl::StrFormat("probes.tick is %d, at most %.0f s of sea time either way can be asked",
                         probes.tick, kQueryTimeMaxS));
