@@ -1,0 +1,23 @@
+#pragma once
+
+#include "onesea/v1/onesea.grpc.pb.h"
+#include "server/rpc/watch_methods.h"
+
+/// Which API serves which method: Watch and WatchStamps are raw async (watch_server.h), the rest is callback.
+namespace onesea::server {
+
+template <class Base>
+using WithSessionMethods = v1::OneSea::WithCallbackMethod_ListSessions<
+    v1::OneSea::WithCallbackMethod_CreateSession<v1::OneSea::WithCallbackMethod_DeleteSession<
+        v1::OneSea::WithCallbackMethod_ChangeWeather<v1::OneSea::WithCallbackMethod_HoldSession<
+            v1::OneSea::WithCallbackMethod_ResumeSession<v1::OneSea::WithCallbackMethod_SetSpeed<
+                v1::OneSea::WithCallbackMethod_StepSession<Base>>>>>>>>;
+
+template <class Base>
+using WithQueryMethods = v1::OneSea::WithCallbackMethod_QueryPoints<
+    v1::OneSea::WithCallbackMethod_StreamQueries<v1::OneSea::WithCallbackMethod_SyncClock<
+        v1::OneSea::WithCallbackMethod_GetStateHash<Base>>>>;
+
+using OneSeaMethods = WithQueryMethods<WithSessionMethods<WatchMethods>>;
+
+}  // namespace onesea::server
