@@ -173,13 +173,6 @@ std::vector<RegularComponent> BuildRegular(const Recipe& recipe) {
 
 absl::StatusOr<std::shared_ptr<const Components>> BuildComponents(const Recipe& recipe) {
   ONESEA_RETURN_IF_ERROR(ValidateRecipe(recipe));
-  for (const WeatherEntry& entry : recipe.timeline) {
-    for (const WaveSystem& system : entry.sea.systems) {
-      if (MakeWaveSpectrum(system, recipe.depth_m) == nullptr) {
-        return absl::UnimplementedError("this family of spectra is not there yet");
-      }
-    }
-  }
   auto out = std::make_shared<Components>();
   out->recipe = recipe;
   std::vector<Lattice> lattices;

@@ -31,17 +31,16 @@ double DonelanBannerShape(double beta, double swell, double cos_delta) {
   return swell > 0.0 ? base * HalfCosinePower(c, swell) : base;
 }
 
-// 1 / ∫ sech²(βΔ) cos^2s(Δ/2) dΔ over a turn, Simpson's rule on [0, π].
+// 1 / ∫ sech²(βΔ) cos^2s(Δ/2) dΔ over a turn, midpoints of [0, π]: at π a small s has a cusp.
 double DonelanBannerNormaliser(double beta, double swell) {
   if (!(swell > 0.0)) return beta / (2.0 * real::Tanh(beta * kPi));
   constexpr int kIntervals = 64;
   double sum = 0.0;
-  for (int n = 0; n <= kIntervals; ++n) {
-    const double weight = n == 0 || n == kIntervals ? 1.0 : (n % 2 == 1 ? 4.0 : 2.0);
-    const double delta = kPi * n / kIntervals;
-    sum += weight * Sech2(beta * delta) * HalfCosinePower(real::Cos(delta), swell);
+  for (int n = 0; n < kIntervals; ++n) {
+    const double delta = kPi * (n + 0.5) / kIntervals;
+    sum += Sech2(beta * delta) * HalfCosinePower(real::Cos(delta), swell);
   }
-  return 1.0 / (2.0 * sum * kPi / (3.0 * kIntervals));
+  return 1.0 / (2.0 * sum * kPi / kIntervals);
 }
 
 }  // namespace

@@ -4,7 +4,11 @@
 #include <cmath>
 #include <cstdint>
 
+#include "common/sea/spectrum_buoy.h"
+#include "common/sea/spectrum_elfouhaily.h"
+#include "common/sea/spectrum_grid.h"
 #include "common/sea/spectrum_jonswap.h"
+#include "common/sea/spectrum_phillips.h"
 #include "common/sea/spectrum_pierson_moskowitz.h"
 
 namespace onesea::sea {
@@ -32,6 +36,9 @@ double Power(double x, int n) {
 struct Maker {
   double depth_m;
 
+  std::unique_ptr<const WaveSpectrum> operator()(const PhillipsSystem& s) const {
+    return MakePhillipsSpectrum(s);
+  }
   std::unique_ptr<const WaveSpectrum> operator()(const PiersonMoskowitzSystem& s) const {
     return MakePiersonMoskowitzSpectrum(s, depth_m);
   }
@@ -41,9 +48,14 @@ struct Maker {
   std::unique_ptr<const WaveSpectrum> operator()(const FetchJonswapSystem& s) const {
     return MakeFetchJonswapSpectrum(s, depth_m);
   }
-  template <typename Other>
-  std::unique_ptr<const WaveSpectrum> operator()(const Other&) const {
-    return nullptr;
+  std::unique_ptr<const WaveSpectrum> operator()(const ElfouhailySystem& s) const {
+    return MakeElfouhailySpectrum(s);
+  }
+  std::unique_ptr<const WaveSpectrum> operator()(const BuoySpectrum& s) const {
+    return MakeBuoySpectrum(s, depth_m);
+  }
+  std::unique_ptr<const WaveSpectrum> operator()(const GridSpectrum& s) const {
+    return MakeGridSpectrum(s, depth_m);
   }
 };
 

@@ -7,6 +7,7 @@
 
 #include "common/base/limits.h"
 #include "common/sea/constants.h"
+#include "common/sea/wave_spectrum.h"
 
 namespace onesea::sea {
 namespace {
@@ -45,6 +46,50 @@ TEST(BuildComponents, VarianceOfANarrowSwellIsTheRecipesInEveryDirection) {
     const auto components = Build(RecipeOf({NarrowSwell(n * kPi / 12.0 + 0.05)}));
     EXPECT_NEAR(VarianceAt(*components, {0}) / 0.25, 1.0, 0.005) << "direction " << n;
   }
+}
+
+// Σ E + lost is ∫S, whatever the family; the integral is that of 1-D quadrature.
+TEST(BuildComponents, EveryFamilyKeepsItsVariance) {
+  PhillipsSystem phillips;
+  phillips.wind_speed_m_per_s = 14.0;
+  phillips.wind_to_rad = 1.0;
+  FetchJonswapSystem fetch;
+  fetch.spreading.kind = SpreadingKind::kMitsuyasu;
+  PiersonMoskowitzSystem moskowitz;
+  moskowitz.spreading = {SpreadingKind::kDonelanBanner, 0.0, 0.4};
+  GridSpectrum grid;
+  for (int m = 0; m < 36; ++m) grid.wave_to_rad.push_back(0.05f + 0.1745f * static_cast<float>(m));
+  for (int n = 0; n < 30; ++n) {
+    grid.frequency_hz.push_back(0.04f + 0.015f * static_cast<float>(n));
+    for (int m = 0; m < 36; ++m) {
+      grid.density_m2_per_hz_rad.push_back(m > 5 && m < 9 && n > 3 && n < 12 ? 3.0f : 0.0f);
+    }
+  }
+  for (const WaveSystem& system :
+       {WaveSystem{phillips}, WaveSystem{moskowitz}, WaveSystem{fetch},
+        WaveSystem{ElfouhailySystem{11.0, 1.0, -1.0}}, WaveSystem{grid}}) {
+    const auto spectrum = MakeWaveSpectrum(system, 0.0);
+    const double want = RadialMoment(*spectrum, 1e-4, spectrum->EndRadPerM(), 0);
+    const auto components = Build(RecipeOf({system}));
+    const double got = VarianceAt(*components, {0}) + components->lost_variance_m2[0];
+    EXPECT_NEAR(got / want, 1.0, 0.005) << "family " << system.index();
+  }
+}
+
+// ∫ k² F of the whole sea is what the waves carry and what is reported as unresolved.
+TEST(BuildComponents, ReportsTheSlopesThatItLeavesOut) {
+  const auto components = Build(RecipeOf({ElfouhailySystem{10.0, 0.84, 0.3}}));
+  double resolved = 0.0;
+  for (const CascadeComponents& c : components->cascades) {
+    for (std::size_t n = 0; n < c.i.size(); ++n) {
+      const double k2 =
+          c.kx_rad_per_m[n] * c.kx_rad_per_m[n] + c.ky_rad_per_m[n] * c.ky_rad_per_m[n];
+      resolved += k2 * c.variance_m2[0][n];
+    }
+  }
+  EXPECT_GT(resolved, 0.01);
+  EXPECT_GT(components->unresolved_mss[0], 0.01);
+  EXPECT_NEAR((resolved + components->unresolved_mss[0]) / 0.06031, 1.0, 0.01);
 }
 
 TEST(BuildComponents, EverySeedHasTheRecipesHs) {
