@@ -15,6 +15,12 @@ constexpr absl::string_view kBlanks = " \t\r\v\f";
 constexpr std::size_t kQuotedCharactersMax = 40;
 constexpr std::size_t kNumberCharactersMax = 64;
 
+// std::from_chars knows no plus in front.
+absl::string_view WithoutPlus(absl::string_view text) {
+  const bool is_signed_once = text.size() > 1 && text[0] == '+' && text[1] != '-' && text[1] != '+';
+  return is_signed_once ? text.substr(1) : text;
+}
+
 // Writes Fortran's real as C's: D becomes e, and a sign that follows a digit gets the e that
 // Fortran left out.
 std::size_t NormaliseReal(absl::string_view text, char* out) {
@@ -59,11 +65,10 @@ absl::string_view TakeField(absl::string_view& rest) {
 }
 
 std::optional<double> ParseReal(absl::string_view text) {
-  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
+  text = WithoutPlus(text);
   if (text.empty() || text.size() > kNumberCharactersMax) return std::nullopt;
   char buffer[2 * kNumberCharactersMax];
   const std::size_t size = NormaliseReal(text, buffer);
-  // "+" is not part of what from_chars reads in front, but is in an exponent.
   double value = 0.0;
   const auto [end, error] = std::from_chars(buffer, buffer + size, value);
   if (end != buffer + size) return std::nullopt;
@@ -76,7 +81,7 @@ std::optional<double> ParseReal(absl::string_view text) {
 }
 
 std::optional<int> ParseInt(absl::string_view text) {
-  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
+  text = WithoutPlus(text);
   int value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (text.empty() || error != std::errc() || end != text.data() + text.size()) return std::nullopt;

@@ -68,9 +68,9 @@ void ExpectSame(const sea::SpectrumStatistics& s, const Row& row) {
   if (!mean_from_deg) return;
   EXPECT_LT(AngleBetweenDeg(NauticalFromWaveTo(s.mean_wave_to_rad), *mean_from_deg), 2.0);
   EXPECT_NEAR(s.spread_rad / kRadPerDeg, Number(row, "spread_deg").value(), 2.0);
-  EXPECT_LT(AngleBetweenDeg(NauticalFromWaveTo(s.peak_wave_to_rad),
-                            Number(row, "peak_from_deg").value()),
-            2.0);
+  EXPECT_LT(
+      AngleBetweenDeg(NauticalFromWaveTo(s.peak_wave_to_rad), Number(row, "peak_from_deg").value()),
+      2.0);
 }
 
 TEST(ExpectedValues, HoldForEveryRecord) {
