@@ -3,19 +3,10 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
-#include "common/base/check.h"
+#include "server/rpc/status_map.h"
 #include "server/rpc/watch_shard.h"
 
 namespace onesea::server {
-namespace {
-
-// The canonical codes have the same numbers in both libraries.
-grpc::Status ToGrpc(const absl::Status& status) {
-  return {static_cast<grpc::StatusCode>(status.code()), std::string(status.message())};
-}
-
-}  // namespace
-
 WatchCall::WatchCall(WatchShard& shard, WatchMethods& methods) : shard_(shard), methods_(methods) {
   for (int op = 0; op < kWatchOps; ++op) tags_[op] = {this, static_cast<WatchOp>(op)};
 }
