@@ -11,8 +11,9 @@ struct BackoffOptions {
       5'000'000'000;  ///< a person does not wait longer for a server that came back
 };
 
-/// How long to wait before the next try: doubling up to a limit, each time a random share in [1/2, 1] of it, so that
-/// a thousand viewers of a restarted server do not come back in the same millisecond.
+/// How long to wait before the next try: doubling up to a limit, each time a random share in [1/2,
+/// 1] of it, so that a thousand viewers of a restarted server do not come back in the same
+/// millisecond.
 class Backoff {
  public:
   Backoff(BackoffOptions options, std::uint64_t seed) : options_(options), random_(seed) {}

@@ -5,7 +5,8 @@
 
 namespace onesea::client {
 
-/// One question "what is your clock?": our clock when it left and when the answer came, theirs in between.
+/// One question "what is your clock?": our clock when it left and when the answer came, theirs in
+/// between.
 struct ClockExchange {
   std::int64_t sent_ns = 0;
   std::int64_t server_ns = 0;
@@ -17,11 +18,12 @@ inline constexpr double kClockDriftMax = 50e-6;
 
 /// The server's monotonic clock, from exchanges.
 ///
-/// Problem: an answer says what their clock was at some moment between our two readings; queues make that span long
-/// and lopsided. Idea: the span is the error, so keep the exchange of least round trip and put their reading in its
-/// middle: then the truth is within half the round trip, whatever the delays were. Averages would only mix worse
-/// exchanges in. Clocks drift, so an old exchange loses kClockDriftMax of its age and a fresh one takes over.
-/// Limits: a path that is slower in one direction shifts the estimate inside its bound; nobody can see that from here.
+/// Problem: an answer says what their clock was at some moment between our two readings; queues
+/// make that span long and lopsided. Idea: the span is the error, so keep the exchange of least
+/// round trip and put their reading in its middle: then the truth is within half the round trip,
+/// whatever the delays were. Averages would only mix worse exchanges in. Clocks drift, so an old
+/// exchange loses kClockDriftMax of its age and a fresh one takes over. Limits: a path that is
+/// slower in one direction shifts the estimate inside its bound; nobody can see that from here.
 ///
 /// Pure; one thread.
 class ClockSync {

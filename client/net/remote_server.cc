@@ -1,9 +1,9 @@
 #include "client/net/remote_server.h"
 
+#include <grpc/support/time.h>
 #include <grpcpp/channel.h>
 #include <grpcpp/client_context.h>
 
-#include <chrono>
 #include <utility>
 
 #include "client/net/grpc_status.h"
@@ -25,8 +25,7 @@ struct RemoteServer::Impl {
                                                              Response*),
                     const Request& request, Response* response, std::int64_t call_timeout_ns) {
     grpc::ClientContext context;
-    context.set_deadline(std::chrono::system_clock::now() +
-                         std::chrono::microseconds(call_timeout_ns / 1000));
+    context.set_deadline(gpr_time_from_nanos(call_timeout_ns, GPR_TIMESPAN));
     return FromGrpc((stub.get()->*method)(&context, request, response));
   }
   template <typename Request, typename Response>

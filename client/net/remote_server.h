@@ -12,8 +12,8 @@
 #include "common/wire/query.h"
 #include "common/wire/session_spec.h"
 
-/// The server's methods as plain blocking calls with the domain's types. Errors are those of the server; Unavailable
-/// when it can't be reached, DeadlineExceeded when it does not answer in time.
+/// The server's methods as plain blocking calls with the domain's types. Errors are those of the
+/// server; Unavailable when it can't be reached, DeadlineExceeded when it does not answer in time.
 namespace onesea::client {
 
 struct WeatherChange {
@@ -47,8 +47,8 @@ struct StateHashes {
   std::uint64_t component_hash = 0;
 };
 
-/// Many queries in flight on one stream: lower latency and several times the rate of single calls. One thread may
-/// send while another receives.
+/// Many queries in flight on one stream: lower latency and several times the rate of single calls.
+/// One thread may send while another receives.
 class QueryStream {
  public:
   struct Impl;
@@ -57,7 +57,8 @@ class QueryStream {
 
   /// Blocks while the connection takes no more. Unavailable when the stream is over.
   absl::Status Send(const wire::QueryRequest& request);
-  /// The next answer, of whichever request; `QueryAnswer::status` is that request's. The stream's own end is an error.
+  /// The next answer, of whichever request; `QueryAnswer::status` is that request's. The stream's
+  /// own end is an error.
   absl::StatusOr<wire::QueryAnswer> Receive();
 
  private:

@@ -9,12 +9,13 @@ namespace onesea::client {
 
 /// From stamps to the sea time of any moment: time of the stamp's tick + (now - then) * speed.
 ///
-/// Two readings. Exact() is the line that the last stamp draws: what the server's sea is at, as far as we know.
-/// Render() is what pictures are made at: the same, but it never goes backwards while the sea runs, for the estimate of
-/// the server's clock moves by microseconds and a stamp of a slow server may step back. It waits for the line instead
-/// of smoothing towards it. Two exceptions, both exact jumps that the server asked for: a sea that stands still (held,
-/// lock-step) is at exactly its tick, on every screen, even if this one had run ahead by the delay of the news; and a
-/// sea more than kRestartS behind is another one (the session began anew).
+/// Two readings. Exact() is the line that the last stamp draws: what the server's sea is at, as far
+/// as we know. Render() is what pictures are made at: the same, but it never goes backwards while
+/// the sea runs, for the estimate of the server's clock moves by microseconds and a stamp of a slow
+/// server may step back. It waits for the line instead of smoothing towards it. Two exceptions,
+/// both exact jumps that the server asked for: a sea that stands still (held, lock-step) is at
+/// exactly its tick, on every screen, even if this one had run ahead by the delay of the news; and
+/// a sea more than kRestartS behind is another one (the session began anew).
 ///
 /// Pure; one thread.
 class SeaClock {

@@ -34,7 +34,8 @@ struct LinkEvent {
   std::int64_t retry_in_ns = 0;  ///< kWaiting
 };
 
-/// Called on the client's own thread, one call at a time: return soon, and never destroy or Stop() the client from here.
+/// Called on the client's own thread, one call at a time: return soon, and never destroy or Stop()
+/// the client from here.
 class SessionListener {
  public:
   virtual ~SessionListener() = default;
@@ -68,10 +69,10 @@ struct LinkStats {
   std::int64_t round_trip_ns = 0;  ///< of the best exchange of clocks
 };
 
-/// A viewer's connection: opens Watch, hands out decoded frames, acknowledges every fourth with the reported drift,
-/// keeps the estimate of the server's clock, and when the link is lost comes back by itself. While it is away the sea
-/// time runs on by the last stamp; the clock of a new connection takes over only when it is as good as the old one was,
-/// so the return shows no jump.
+/// A viewer's connection: opens Watch, hands out decoded frames, acknowledges every fourth with the
+/// reported drift, keeps the estimate of the server's clock, and when the link is lost comes back
+/// by itself. While it is away the sea time runs on by the last stamp; the clock of a new
+/// connection takes over only when it is as good as the old one was, so the return shows no jump.
 ///
 /// All methods are thread-safe.
 class SessionClient {
@@ -86,7 +87,8 @@ class SessionClient {
   SeaTime Now();
   LinkStats stats() const;
 
-  /// The worst probe error [m] that this viewer sees, for the next acknowledgement; negative: not known.
+  /// The worst probe error [m] that this viewer sees, for the next acknowledgement; negative: not
+  /// known.
   void ReportDrift(double drift_m) { drift_m_ = static_cast<float>(drift_m); }
 
   /// Ends the stream and the thread; no call of the listener follows. Idempotent.

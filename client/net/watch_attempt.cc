@@ -1,7 +1,8 @@
 #include "client/net/watch_attempt.h"
 
+#include <grpc/support/time.h>
+
 #include <algorithm>
-#include <chrono>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,7 +21,7 @@ constexpr int kAckEvery = 4;
 constexpr int kFirstExchanges = 6;
 constexpr std::int64_t kExchangePeriodNs = 4'000'000'000;
 constexpr std::int64_t kExchangeRetryNs = 500'000'000;
-constexpr auto kExchangeTimeout = std::chrono::seconds(2);
+constexpr std::int64_t kExchangeTimeoutMs = 2'000;
 // Beyond this no clock is honest, and sums of two stay inside 64 bits.
 constexpr std::int64_t kMonotonicMaxNs = std::int64_t{1} << 61;
 
@@ -50,7 +51,7 @@ absl::Status WatchAttempt::Run() {
   while (pending_ > 0) {
     void* tag = nullptr;
     bool ok = false;
-    const auto deadline = std::chrono::system_clock::now() + std::chrono::milliseconds(100);
+    const gpr_timespec deadline = gpr_time_from_millis(100, GPR_TIMESPAN);
     if (queue_.AsyncNext(&tag, &ok, deadline) == grpc::CompletionQueue::GOT_EVENT) {
       --pending_;
       OnEvent(static_cast<Op>(reinterpret_cast<std::intptr_t>(tag)), ok);
@@ -190,7 +191,7 @@ void WatchAttempt::OnTime(std::int64_t now_ns) {
 void WatchAttempt::StartExchange() {
   next_exchange_ns_ = INT64_MAX;
   exchange_context_ = std::make_unique<grpc::ClientContext>();
-  exchange_context_->set_deadline(std::chrono::system_clock::now() + kExchangeTimeout);
+  exchange_context_->set_deadline(gpr_time_from_millis(kExchangeTimeoutMs, GPR_TIMESPAN));
   ++pending_;
   exchange_sent_ns_ = clock_.MonotonicNs();
   exchange_ = stub_->AsyncSyncClock(exchange_context_.get(), v1::SyncClockRequest(), &queue_);
@@ -211,7 +212,8 @@ void WatchAttempt::OnExchanged(std::int64_t now_ns) {
 void WatchAttempt::UseClock(std::int64_t now_ns) {
   if (!stamp_.has_value() || !sync_.synchronised()) return;
   absl::MutexLock lock(&client_.mutex_);
-  // At the first join any clock is better than none; after that the old one serves until the new one is as good.
+  // At the first join any clock is better than none; after that the old one serves until the new
+  // one is as good.
   clock_in_use_ = clock_in_use_ || !client_.sea_clock_.valid() || sync_.count() >= kFirstExchanges;
   if (!clock_in_use_) return;
   client_.sea_clock_.OnStamp(*stamp_, tick_rate_hz_, sync_.offset_ns());

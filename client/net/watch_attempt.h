@@ -18,8 +18,8 @@
 
 namespace onesea::client {
 
-/// One connection of a SessionClient, from the first byte to its end, on the caller's thread with one completion queue.
-/// The clock exchanges run beside the stream over the same connection.
+/// One connection of a SessionClient, from the first byte to its end, on the caller's thread with
+/// one completion queue. The clock exchanges run beside the stream over the same connection.
 class WatchAttempt {
  public:
   explicit WatchAttempt(SessionClient& client);
@@ -40,7 +40,8 @@ class WatchAttempt {
   void Acknowledge();
   void StartExchange();
   void OnExchanged(std::int64_t now_ns);
-  // Hands the clock and the newest stamp over to the client, once this connection's clock is good enough.
+  // Hands the clock and the newest stamp over to the client, once this connection's clock is good
+  // enough.
   void UseClock(std::int64_t now_ns);
   void Send(const v1::WatchRequest& request);
   void Give(const absl::Status& status);

@@ -35,9 +35,9 @@ inline constexpr std::int64_t kOpenTimeoutNs = 5'000'000'000;
 /// One viewer's call. Lives on one shard's thread from its acceptance on, and ends itself.
 ///
 ///   state      meaning                                  left by
-///   Requested  gRPC may give it a call                  kAccepted -> Opening (or Over: the server shuts down)
-///   Opening    waits for the first message              a good one -> Watching; a bad one, none in time -> Finishing
-///   Watching   Subscriber decides what is written       farewell, bad message, stall, viewer gone -> Finishing
+///   Requested  gRPC may give it a call                  kAccepted -> Opening, or Over
+///   Opening    waits for the first message              a good one -> Watching, else -> Finishing
+///   Watching   Subscriber decides what is written       farewell, error, stall, gone -> Finishing
 ///   Finishing  the status is on its way                 kFinished -> Over
 ///   Over       deleted when no operation is pending
 class WatchCall {

@@ -16,9 +16,9 @@ struct WatchOptions {
   int shards = 0;  ///< threads that send; 0: one less than the machine's cores, at least 1
 };
 
-/// Serves Watch and WatchStamps. Order: construct with the builder, BuildAndStart, Start; at the end close the sessions
-/// (their viewers get the farewell), grpc::Server::Shutdown with a deadline, Stop. `hub`, `methods` and `clock` outlive
-/// it. It sets the hub's wake-up.
+/// Serves Watch and WatchStamps. Order: construct with the builder, BuildAndStart, Start; at the
+/// end close the sessions (their viewers get the farewell), grpc::Server::Shutdown with a deadline,
+/// Stop. `hub`, `methods` and `clock` outlive it. It sets the hub's wake-up.
 class WatchServer {
  public:
   WatchServer(Hub& hub, WatchMethods& methods, grpc::ServerBuilder& builder,
@@ -31,8 +31,8 @@ class WatchServer {
   WatchStats stats() const;
 
  private:
-  // Exactly one call of each method is waited for, on the least loaded queue: with one per queue gRPC was seen to give
-  // 998 of 1000 calls to one of two queues, and a call cannot move.
+  // Exactly one call of each method is waited for, on the least loaded queue: with one per queue
+  // gRPC was seen to give 998 of 1000 calls to one of two queues, and a call cannot move.
   void AcceptNext(bool bidi);
   WatchShard& LeastLoaded();
 

@@ -3,7 +3,6 @@
 #include <grpc/support/time.h>
 #include <pthread.h>
 
-#include <chrono>
 #include <utility>
 
 #include "common/base/check.h"
@@ -78,7 +77,7 @@ void WatchShard::Run() {
   for (;;) {
     void* tag = nullptr;
     bool ok = false;
-    const auto deadline = std::chrono::system_clock::now() + std::chrono::milliseconds(50);
+    const gpr_timespec deadline = gpr_time_from_millis(50, GPR_TIMESPAN);
     const auto next = queue_->AsyncNext(&tag, &ok, deadline);
     if (next == grpc::CompletionQueue::SHUTDOWN) break;
     if (next == grpc::CompletionQueue::GOT_EVENT) OnEvent(tag, ok);
@@ -108,7 +107,8 @@ void WatchShard::OnWake() {
   for (const std::unique_ptr<WatchGroup>& group : groups_) {
     group->Refresh(false);
     if (group->driven_sequence == group->newest.sequence) continue;
-    // Before the loop: a call in it may refresh the group again, and then another wake-up is on its way.
+    // Before the loop: a call in it may refresh the group again, and then another wake-up is on its
+    // way.
     group->driven_sequence = group->newest.sequence;
     for (WatchCall* call : group->calls) call->Drive(clock_.MonotonicNs());
   }

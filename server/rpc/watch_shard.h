@@ -44,9 +44,10 @@ struct WatchStats {
   int calls = 0;               ///< accepted and not yet over
 };
 
-/// One thread with one completion queue that does everything for its viewers: it is woken when there are frames, writes
-/// them and takes the completions itself. Since nobody else polls this queue no other thread is woken by a completed
-/// write, which is what makes this cheaper than gRPC's other interfaces (13.5 against 20 µs per viewer and frame).
+/// One thread with one completion queue that does everything for its viewers: it is woken when
+/// there are frames, writes them and takes the completions itself. Since nobody else polls this
+/// queue no other thread is woken by a completed write, which is what makes this cheaper than
+/// gRPC's other interfaces (13.5 against 20 µs per viewer and frame).
 class WatchShard {
  public:
   /// `accept_next` is called on this shard's thread when it was given a call.

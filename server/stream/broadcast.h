@@ -15,12 +15,12 @@
 
 namespace onesea::server {
 
-/// The frames of one session, offered to every thread that sends them. The session's thread writes, shard threads read;
-/// a reader takes what is newest and is never queued for.
+/// The frames of one session, offered to every thread that sends them. The session's thread writes,
+/// shard threads read; a reader takes what is newest and is never queued for.
 class Broadcast final : public SessionObserver {
  public:
-  /// `wake` is called, on the session's thread and without a lock of this class, when there is something new to send;
-  /// it must return quickly.
+  /// `wake` is called, on the session's thread and without a lock of this class, when there is
+  /// something new to send; it must return quickly.
   explicit Broadcast(std::function<void()> wake) : wake_(std::move(wake)) {}
 
   void OnWelcomeChanged(std::shared_ptr<const wire::Welcome> welcome) override;
@@ -36,7 +36,8 @@ class Broadcast final : public SessionObserver {
     FramePtr keyframe;           ///< of the newest state, if asked for
     bool closed = false;         ///< these carry the farewell; nothing follows
   };
-  /// All of one moment. The keyframe is encoded here if this is the first to ask for it in this tick.
+  /// All of one moment. The keyframe is encoded here if this is the first to ask for it in this
+  /// tick.
   Newest newest(Audience audience, bool with_keyframe) const;
   bool closed() const { return closed_.load(std::memory_order_acquire); }
 

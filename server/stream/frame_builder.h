@@ -11,23 +11,25 @@
 
 namespace onesea::server {
 
-/// No audience gets frames at a shorter distance of the server's real time than these (a sea that changes pace, speed
-/// or weather is told at once all the same), so fast forward and lock-step do not flood anybody.
+/// No audience gets frames at a shorter distance of the server's real time than these (a sea that
+/// changes pace, speed or weather is told at once all the same), so fast forward and lock-step do
+/// not flood anybody.
 inline constexpr std::int64_t kStampSpacingNs = 100'000'000;
 /// Three quarters of a streamed period: leaves room for a late tick without losing the next one.
 std::int64_t EveryFrameSpacingNs(int stream_rate_hz);
 
-/// Turns the ticks of one session into the frames of one audience: numbers them, encodes each once, and keeps the
-/// keyframe of the newest state for newcomers and for those who dropped something. Which ticks are told is said by the
-/// session (TickEvent). Times are those in the stamps: there is no clock here. One thread at a time.
+/// Turns the ticks of one session into the frames of one audience: numbers them, encodes each once,
+/// and keeps the keyframe of the newest state for newcomers and for those who dropped something.
+/// Which ticks are told is said by the session (TickEvent). Times are those in the stamps: there is
+/// no clock here. One thread at a time.
 class FrameBuilder {
  public:
   explicit FrameBuilder(Audience audience) : audience_(audience) {}
 
   /// The recipe is new or changed: everybody gets the welcome, as a keyframe.
   void OnWelcome(std::shared_ptr<const wire::Welcome> welcome);
-  /// True if newest() is a new frame; without `anybody_watches` there is none, only the state is kept.
-  /// Pre: after OnWelcome.
+  /// True if newest() is a new frame; without `anybody_watches` there is none, only the state is
+  /// kept. Pre: after OnWelcome.
   bool OnTick(const TickEvent& event, bool anybody_watches);
   /// Tells a tick that came too soon after another one; true as in OnTick.
   bool Flush(std::int64_t now_ns);
@@ -38,8 +40,8 @@ class FrameBuilder {
   std::int64_t newest_sequence() const { return stamp_.has_value() || farewell_ ? sequence_ : -1; }
   /// For those who have the frame before. Pre: newest_sequence() > 0.
   const FramePtr& newest() const { return newest_; }
-  /// Welcome, newest stamp and probes under newest_sequence(). Encoded on demand, at most once per tick.
-  /// Pre: newest_sequence() >= 0.
+  /// Welcome, newest stamp and probes under newest_sequence(). Encoded on demand, at most once per
+  /// tick. Pre: newest_sequence() >= 0.
   const FramePtr& Keyframe();
 
  private:

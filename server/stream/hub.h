@@ -36,14 +36,15 @@ class Seat {
   Audience audience_ = Audience::kStamps;
 };
 
-/// Where viewers meet sessions: one Broadcast per watched session. Thread-safe. Must outlive the registry's sessions or
-/// be destroyed after they closed.
+/// Where viewers meet sessions: one Broadcast per watched session. Thread-safe. Must outlive the
+/// registry's sessions or be destroyed after they closed.
 class Hub {
  public:
   explicit Hub(Registry& registry) : registry_(registry) {}
   ~Hub();
 
-  /// Called, on any thread, when a shard may have something to send. After SetWake returns the former one isn't called.
+  /// Called, on any thread, when a shard may have something to send. After SetWake returns the
+  /// former one isn't called.
   void SetWake(std::function<void()> wake);
 
   /// NotFound; ResourceExhausted at kViewersPerSessionMax.

@@ -16,19 +16,20 @@ inline constexpr std::int64_t kStallTimeoutNs = 5'000'000'000;
 
 /// Decides what one viewer is sent next. Pure: no transport, no clock, no allocation, one thread.
 ///
-/// Problem: a transport accepts frames long before anybody reads them (10 s of 2 KB frames were measured in kernel and
-/// HTTP/2 buffers), so "written" says nothing. Idea: the viewer acknowledges, and only `credit` frames may be
-/// unacknowledged; whoever falls behind is not sent a queue but the newest state, as a keyframe that needs nothing
-/// before it. A drop shows in the sequence: the next frame is not the one after the last sent.
+/// Problem: a transport accepts frames long before anybody reads them (10 s of 2 KB frames were
+/// measured in kernel and HTTP/2 buffers), so "written" says nothing. Idea: the viewer
+/// acknowledges, and only `credit` frames may be unacknowledged; whoever falls behind is not sent a
+/// queue but the newest state, as a keyframe that needs nothing before it. A drop shows in the
+/// sequence: the next frame is not the one after the last sent.
 ///
 ///   state     meaning                                        left by
 ///   Ready     nothing in flight, credit left                 Next() that sends -> Writing
-///   Writing   one write in flight                            OnWritten() -> Ready, or Starved when credit is used up
+///   Writing   one write in flight                            OnWritten() -> Ready or Starved
 ///   Starved   nothing in flight, no credit                   OnAck() -> Ready
 ///   Ended     End() was called, or stalled too long          never
 ///
-/// In Writing and Starved newer frames only replace what would be sent next. Whoever stays in one of the two for
-/// kStallTimeoutNs is ended.
+/// In Writing and Starved newer frames only replace what would be sent next. Whoever stays in one
+/// of the two for kStallTimeoutNs is ended.
 class Subscriber {
  public:
   enum class State : std::uint8_t { kReady, kWriting, kStarved, kEnded };
@@ -48,14 +49,15 @@ class Subscriber {
   /// Would Next(newest_sequence) say kKeyframe?
   bool NeedsKeyframe(std::int64_t newest_sequence) const;
 
-  /// What to send, given that the newest frame has `newest_sequence`. Anything but kNothing counts as sent with that
-  /// sequence: the caller starts the write. Pre: newest_sequence never falls.
+  /// What to send, given that the newest frame has `newest_sequence`. Anything but kNothing counts
+  /// as sent with that sequence: the caller starts the write. Pre: newest_sequence never falls.
   Send Next(std::int64_t newest_sequence, std::int64_t now_ns);
 
   /// The write in flight is complete. Pre: state() == kWriting or kEnded.
   void OnWritten(std::int64_t now_ns);
 
-  /// Everything up to `sequence` has been read. InvalidArgument if it was never sent; an old one changes nothing.
+  /// Everything up to `sequence` has been read. InvalidArgument if it was never sent; an old one
+  /// changes nothing.
   absl::Status OnAck(std::int64_t sequence, std::int64_t now_ns);
 
   void End() { state_ = State::kEnded; }

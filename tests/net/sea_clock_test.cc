@@ -67,7 +67,8 @@ TEST(SeaClock, AServerThatSlowsDownIsFollowedWithoutGoingBack) {
   EXPECT_NEAR(last.Seconds(), 10.0 * 50 / 60, 0.2);
 }
 
-// The news of a hold comes late, so the screen has run ahead; then it must show exactly what all others show.
+// The news of a hold comes late, so the screen has run ahead; then it must show exactly what all
+// others show.
 TEST(SeaClock, AHeldSeaIsExactlyAtItsTick) {
   SeaClock clock;
   clock.OnStamp(StampAt(0, 0), kRateHz, 0);

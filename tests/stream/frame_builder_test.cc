@@ -17,7 +17,8 @@ wire::Frame Decode(const FramePtr& frame) {
   return decoded.ok() ? *decoded : wire::Frame{};
 }
 
-// Drives a builder as a session in real time does: 60 ticks a second, streamed every second one, stamped each second.
+// Drives a builder as a session in real time does: 60 ticks a second, streamed every second one,
+// stamped each second.
 class Ticker {
  public:
   explicit Ticker(FrameBuilder& builder) : builder_(builder) {}

@@ -143,7 +143,8 @@ TEST(Subscriber, NothingIsSentAfterTheEnd) {
   EXPECT_FALSE(subscriber.Stalled(100 * kSecond));
 }
 
-// Random order of events against the rule itself: a plain list of what was sent, and the four promises of the header.
+// Random order of events against the rule itself: a plain list of what was sent, and the four
+// promises of the header.
 TEST(Subscriber, RandomEventsKeepThePromises) {
   std::mt19937_64 random(7);
   for (int run = 0; run < 200; ++run) {
