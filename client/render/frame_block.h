@@ -1,0 +1,55 @@
+#pragma once
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec4.hpp>
+
+#include "client/render/ocean_grid.h"
+#include "client/render/render_frame.h"
+#include "client/render/sky_light.h"
+
+namespace onesea::render {
+
+/// Mirror of the uniform block `Frame` (shaders/frame.glsl, std140): vectors only, so that both
+/// languages agree on every offset. Positions are relative to the eye's horizontal position.
+struct FrameBlock {
+  glm::mat4 clip_from_world;
+  glm::vec4 ray_forward;      // w: radians per pixel
+  glm::vec4 ray_right;        // times the tangent of half the width; w: picture width
+  glm::vec4 ray_up;           // times the tangent of half the height; w: picture height
+  glm::vec4 eye;              // xyz: eye (0, 0, height); w: time [s], modulo an hour
+  glm::vec4 sun_direction;    // w: azimuth [rad]
+  glm::vec4 sun_irradiance;   // w: exposure
+  glm::vec4 sky_irradiance;   // w: cloud cover
+  glm::vec4 water_leaving;    // w: choppiness
+  glm::vec4 crest_radiance;   // w: significant wave height [m]
+  glm::vec4 foam_irradiance;  // rgb: colour of bubbly water; w: clouds' drift
+  glm::vec4 haze;             // rgb: extinction [1/m]; w: eye's horizon distance [m]
+  glm::vec4 cloud_radiance;   // w: 1 / cloud map [m]
+  glm::vec4 wind;             // xy: direction, z: speed, w: fold threshold of far foam
+  glm::vec4 foam_window;      // xy: offset [turns], z: 1/extent, w: half extent [m], 0: none
+  glm::vec4 foam_detail;      // xy: offset [turns], z: 1/tile, w: gust map 1/m
+  glm::vec4 ripple_map;       // xy: offset [turns], z: 1/length, w: texel [m]
+  glm::vec4 ripple_stats;     // xyz: variance xx, yy, xy of ripples; w: 1 if drawn
+  glm::vec4 fine_variance;    // xyz: slope variance held by no texture
+  glm::vec4 grid;             // x: columns, y: first azimuth, z: azimuth step, w: log radius step
+  glm::vec4 grid_rows;        // x: first row's log radius, y: 1 if row 0 is the nadir
+  glm::vec4 counts;           // x: cascades, y: regular waves, z: texels per side
+  glm::vec4 cascade_map[kRenderCascadesMax];    // xy: offset [turns], z: 1/length, w: texel [m]
+  glm::vec4 cascade_turn[kRenderCascadesMax];   // xy: cos, sin of the rotation
+  glm::vec4 cascade_stats[kRenderCascadesMax];  // xyz: slope variance xx, yy, xy
+  glm::vec4 regular[kRenderRegularWavesMax];    // kx, ky, amplitude, phase at the eye
+};
+
+/// Slope variance [-] of one cascade, measured over its tile.
+struct SlopeStats {
+  double xx = 0, yy = 0, xy = 0;
+  double height_variance_m2 = 0;
+};
+SlopeStats MeasureSlopes(const CascadePlanes& planes);
+
+/// `ripples` is the slope variance that the ripple texture holds.
+FrameBlock MakeFrameBlock(const RenderFrame& frame, const SkyLight& light, const OceanGrid& grid,
+                          const std::vector<SlopeStats>& stats, const SlopeStats& ripples,
+                          double ripple_length_m, int width, int height);
+
+}  // namespace onesea::render

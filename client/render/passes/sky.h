@@ -1,0 +1,27 @@
+#pragma once
+
+#include "absl/status/statusor.h"
+#include "client/render/gl_objects.h"
+#include "client/render/shader_program.h"
+#include "client/render/sky_light.h"
+
+namespace onesea::render {
+
+/// The sky's map and clouds on the graphics card, and the pass that draws them behind everything.
+class SkyPass {
+ public:
+  static absl::StatusOr<SkyPass> Create();
+
+  void SetLight(const SkyLight& light);
+  void Draw(const VertexArray& empty, const ColorTarget& scene);
+
+  const Texture& map() const { return map_; }
+  const Texture& clouds() const { return clouds_; }
+
+ private:
+  explicit SkyPass(ShaderProgram program);
+  ShaderProgram program_;
+  Texture map_, clouds_;
+};
+
+}  // namespace onesea::render

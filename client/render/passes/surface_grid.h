@@ -1,0 +1,38 @@
+#pragma once
+
+#include "absl/status/statusor.h"
+#include "client/render/gl_objects.h"
+#include "client/render/ocean_grid.h"
+#include "client/render/sea_textures.h"
+#include "client/render/shader_program.h"
+
+namespace onesea::render {
+
+/// Draws the displaced lattice into a picture of (undisplaced x, y, distance): what the surface
+/// pass shades once per pixel. Shading in the first pass would shade each small triangle's blocks anew.
+class SurfaceGridPass {
+ public:
+  static absl::StatusOr<SurfaceGridPass> Create();
+
+  void Draw(const OceanGrid& grid, const SeaTextures& sea, int width, int height, int samples);
+
+  const Texture& surface() const { return surface_; }
+  GLenum target() const { return samples_ > 1 ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D; }
+
+ private:
+  explicit SurfaceGridPass(ShaderProgram program) : program_(std::move(program)) {}
+  void Resize(int width, int height, int samples);
+  void UpdateIndices(const OceanGrid& grid);
+
+  ShaderProgram program_;
+  Texture surface_;
+  Renderbuffer depth_;
+  Framebuffer framebuffer_;
+  VertexArray vertices_;
+  Buffer indices_;
+  int width_ = 0, height_ = 0, samples_ = 0;
+  int columns_ = 0, rows_ = 0;
+  GLsizei index_count_ = 0;
+};
+
+}  // namespace onesea::render

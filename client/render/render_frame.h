@@ -1,0 +1,92 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "common/base/vec.h"
+#include "common/sea/surface.h"
+
+/// Everything one picture needs, as plain data: the renderer knows no session, no network and no
+/// clock. World frame: ENU, z up, metres, radians, seconds. Spans are borrowed for one Draw() call.
+namespace onesea::render {
+
+struct Camera {
+  Vec3d position_m{0, 0, 3};        ///< double; the renderer rebases to it before going to float
+  double yaw_rad = 0.0;             ///< direction of view, counter-clockwise from east
+  double pitch_rad = 0.0;           ///< up is positive, in (-π/2, π/2)
+  double roll_rad = 0.0;            ///< right side down is positive
+  double vertical_fov_rad = 0.785;  ///< in (0.1, 2.0)
+};
+
+struct Sun {
+  double azimuth_rad = 0.0;    ///< where the sun stands, counter-clockwise from east
+  double elevation_rad = 0.5;  ///< in [-0.2, π/2]
+  friend bool operator==(const Sun&, const Sun&) = default;
+};
+
+/// Jerlov's optical water types: open ocean I to III, coastal 1C to 5C.
+enum class WaterType : std::uint8_t { kI, kIB, kII, kIII, k1C, k3C, k5C };
+
+struct Weather {
+  double wind_speed_m_per_s = 8.0;  ///< U10; how much of the sea is white, how fast foam ages
+  double wind_to_rad = 0.0;
+  double visibility_m = 35'000.0;  ///< meteorological range, in [500, 200000]
+  double cloud_cover = 0.25;       ///< in [0, 1]; 1 = overcast, no sun
+};
+
+/// One cascade of the sea at the time of the picture. Planes as in sea/surface.h: (N x N),
+/// vector components in world axes. All cascades of a frame have the same N.
+struct CascadePlanes {
+  int grid_size = 0;
+  double length_m = 0.0;
+  double rotation_rad = 0.0;
+  std::span<const float> height, displacement_x, displacement_y, slope_x, slope_y;
+  std::span<const float> jacobian_xx, jacobian_yy, jacobian_xy;
+};
+
+/// eta = amplitude cos(k·x + phase): an explicit wave, its phase already at the picture's time.
+struct RegularWaveNow {
+  double kx_rad_per_m = 0.0, ky_rad_per_m = 0.0;
+  double amplitude_m = 0.0;
+  double phase_rad = 0.0;
+};
+
+/// Foam as sea::FoamWindow gives it; empty cells: cover is estimated from the folding alone.
+struct FoamCells {
+  std::span<const std::uint8_t> cells;  ///< (side x side), wrap-around, 255 = all white
+  int side = 0;
+  double cell_m = 1.0;
+  Vec2d origin_m;  ///< corner of drifting cell (0, 0)
+};
+
+struct Quality {
+  int samples = 4;                 ///< of the geometry pass: 1 or 4
+  double pixels_per_column = 9.0;  ///< grid density, in [2, 64]; less is finer and dearer
+  bool ripples = true;             ///< cosmetic waves shorter than the last cascade
+  bool bloom = true;
+};
+
+struct RenderFrame {
+  Camera camera;
+  Sun sun;
+  Weather weather;
+  WaterType water = WaterType::kIB;
+  double time_s = 0.0;     ///< sea time; drives ripples and clouds only
+  std::uint64_t seed = 1;  ///< of the cosmetic detail, so that neighbours agree
+  double choppiness = 1.0;
+  double unresolved_mss = 0.0;  ///< slope variance of all waves shorter than the last cascade
+  std::vector<CascadePlanes> cascades;        ///< 1..kRenderCascadesMax, longest first
+  std::vector<RegularWaveNow> regular_waves;  ///< at most kRenderRegularWavesMax are drawn
+  FoamCells foam;
+  double exposure_stops = 0.0;  ///< on top of the metered exposure
+  Quality quality;
+};
+
+inline constexpr int kRenderCascadesMax = 8;
+inline constexpr int kRenderRegularWavesMax = 32;
+
+/// Borrows the planes of `fields`, which must hold sea::kRenderFields.
+CascadePlanes PlanesOf(const sea::CascadeFields& fields, const sea::Cascade& cascade);
+
+}  // namespace onesea::render

@@ -1,0 +1,147 @@
+#include "client/render/renderer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <optional>
+
+#include "client/render/atmosphere.h"
+#include "client/render/frame_block.h"
+#include "client/render/passes/ripples.h"
+#include "client/render/passes/sky.h"
+#include "client/render/passes/surface.h"
+#include "client/render/passes/surface_grid.h"
+#include "client/render/passes/tone_map.h"
+#include "client/render/sea_textures.h"
+#include "common/base/check.h"
+#include "common/base/clock.h"
+
+namespace onesea::render {
+
+struct Renderer::Impl {
+  Impl(RipplePass r, SurfaceGridPass g, SkyPass s, SurfacePass w, ToneMapPass t)
+      : ripples(std::move(r)),
+        grid(std::move(g)),
+        sky(std::move(s)),
+        surface(std::move(w)),
+        tone(std::move(t)) {}
+
+  // The light of the last picture, kept until sun, clouds or haze change.
+  struct LightKey {
+    Sun sun;
+    double cloud_cover = 0.0, visibility_m = 0.0;
+    friend bool operator==(const LightKey&, const LightKey&) = default;
+  };
+
+  void UpdateLight(const RenderFrame& frame);
+  void UploadBlock(const FrameBlock& block);
+  template <typename F>
+  void Pass(const char* name, F&& draw);
+
+  RipplePass ripples;
+  SurfaceGridPass grid;
+  SkyPass sky;
+  SurfacePass surface;
+  ToneMapPass tone;
+  SeaTextures sea;
+  ColorTarget scene;
+  VertexArray empty;
+  Buffer block_buffer;
+  std::optional<Atmosphere> atmosphere;
+  std::optional<LightKey> light_key;
+  SkyLight light;
+  bool measure = false;
+  std::vector<PassTime> pass_times;
+};
+
+template <typename F>
+void Renderer::Impl::Pass(const char* name, F&& draw) {
+  if (!measure) {
+    draw();
+    return;
+  }
+  glFinish();
+  const std::int64_t start_ns = SystemClock().MonotonicNs();
+  const std::clock_t cpu_start = std::clock();
+  draw();
+  glFinish();
+  const double cpu_ms = 1000.0 * static_cast<double>(std::clock() - cpu_start) / CLOCKS_PER_SEC;
+  const double wall_ms = 1e-6 * static_cast<double>(SystemClock().MonotonicNs() - start_ns);
+  pass_times.push_back({name, wall_ms, cpu_ms});
+}
+
+void Renderer::Impl::UpdateLight(const RenderFrame& frame) {
+  const LightKey key{frame.sun, frame.weather.cloud_cover, frame.weather.visibility_m};
+  if (light_key == key) return;
+  if (!light_key || light_key->visibility_m != key.visibility_m) {
+    atmosphere.emplace(std::clamp(key.visibility_m, 500.0, 200'000.0));
+  }
+  light_key = key;
+  light = ComputeSkyLight(*atmosphere, key.sun, key.cloud_cover, key.visibility_m);
+  sky.SetLight(light);
+}
+
+void Renderer::Impl::UploadBlock(const FrameBlock& block) {
+  glBindBuffer(GL_UNIFORM_BUFFER, block_buffer.id());
+  glBufferData(GL_UNIFORM_BUFFER, sizeof(FrameBlock), &block, GL_STREAM_DRAW);
+  glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBlockBinding, block_buffer.id());
+}
+
+absl::StatusOr<std::unique_ptr<Renderer>> Renderer::Create() {
+  ONESEA_ASSIGN_OR_RETURN(RipplePass ripples, RipplePass::Create());
+  ONESEA_ASSIGN_OR_RETURN(SurfaceGridPass grid, SurfaceGridPass::Create());
+  ONESEA_ASSIGN_OR_RETURN(SkyPass sky, SkyPass::Create());
+  ONESEA_ASSIGN_OR_RETURN(SurfacePass surface, SurfacePass::Create());
+  ONESEA_ASSIGN_OR_RETURN(ToneMapPass tone, ToneMapPass::Create());
+  return std::unique_ptr<Renderer>(new Renderer(std::make_unique<Impl>(
+      std::move(ripples), std::move(grid), std::move(sky), std::move(surface), std::move(tone))));
+}
+
+Renderer::Renderer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Renderer::~Renderer() = default;
+void Renderer::MeasurePasses(bool measure) { impl_->measure = measure; }
+const std::vector<PassTime>& Renderer::pass_times() const { return impl_->pass_times; }
+
+void Renderer::Draw(const RenderFrame& frame, int width, int height, unsigned framebuffer) {
+  ONESEA_CHECK(width > 0 && height > 0);
+  ONESEA_CHECK(!frame.cascades.empty() && frame.cascades.size() <= kRenderCascadesMax);
+  Impl& r = *impl_;
+  r.pass_times.clear();
+  glDisable(GL_BLEND);
+  glDisable(GL_CULL_FACE);
+  glDisable(GL_SCISSOR_TEST);
+  r.UpdateLight(frame);
+
+  std::vector<SlopeStats> stats;
+  double variance = 0.0;
+  r.Pass("upload", [&] {
+    for (const CascadePlanes& planes : frame.cascades) {
+      stats.push_back(MeasureSlopes(planes));
+      variance += stats.back().height_variance_m2;
+    }
+    r.sea.Upload(frame.cascades);
+    r.surface.SetFoamWindow(frame.foam);
+  });
+  r.Pass("mips", [&] { r.sea.MakeMips(); });
+  r.Pass("ripples", [&] {
+    r.ripples.Draw(r.empty, frame.seed, frame.time_s, 0.55 * frame.unresolved_mss,
+                   frame.weather.wind_to_rad);
+  });
+
+  double displacement_max_m = 3.2 * std::sqrt(variance);
+  for (const RegularWaveNow& wave : frame.regular_waves) displacement_max_m += wave.amplitude_m;
+  const OceanGrid grid = FitOceanGrid(frame.camera, width, height, frame.quality.pixels_per_column,
+                                      displacement_max_m);
+  r.UploadBlock(MakeFrameBlock(frame, r.light, grid, stats, r.ripples.stats(), RipplePass::kLengthM,
+                               width, height));
+  r.scene.Resize(width, height, GL_RGBA16F);
+  r.Pass("geometry", [&] { r.grid.Draw(grid, r.sea, width, height, frame.quality.samples); });
+  r.Pass("sky", [&] { r.sky.Draw(r.empty, r.scene); });
+  r.Pass("surface", [&] {
+    r.surface.Draw(r.empty, r.scene, r.grid, r.sea, r.ripples, r.sky,
+                   frame.camera.position_m.z < displacement_max_m);
+  });
+  r.Pass("tone map", [&] { r.tone.Draw(r.empty, r.scene, framebuffer, frame.quality.bloom); });
+}
+
+}  // namespace onesea::render

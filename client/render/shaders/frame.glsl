@@ -1,0 +1,44 @@
+// The uniform block that every pass shares; client/render/frame_block.h says what each word means.
+layout(std140) uniform Frame {
+  mat4 clip_from_world;
+  vec4 ray_forward;
+  vec4 ray_right;
+  vec4 ray_up;
+  vec4 eye;
+  vec4 sun_direction;
+  vec4 sun_irradiance;
+  vec4 sky_irradiance;
+  vec4 water_leaving;
+  vec4 crest_radiance;
+  vec4 foam_irradiance;
+  vec4 haze;
+  vec4 cloud_radiance;
+  vec4 wind;
+  vec4 foam_window;
+  vec4 foam_detail;
+  vec4 ripple_map;
+  vec4 ripple_stats;
+  vec4 fine_variance;
+  vec4 grid;
+  vec4 grid_rows;
+  vec4 counts;
+  vec4 cascade_map[8];
+  vec4 cascade_turn[8];
+  vec4 cascade_stats[8];
+  vec4 regular[32];
+};
+
+const float kPi = 3.14159265;
+const float kEarthRadius = 6371000.0;
+
+// The ray through a point of the picture; `at` in [-1, 1].
+vec3 picture_ray(vec2 at) {
+  return normalize(ray_forward.xyz + at.x * ray_right.xyz + at.y * ray_up.xyz);
+}
+
+// Where the undisplaced point `xy` (relative to the eye) lies in cascade `c`, in turns.
+vec2 tile_coordinate(int c, vec2 xy) {
+  vec2 turn = cascade_turn[c].xy;
+  vec2 local = vec2(turn.x * xy.x + turn.y * xy.y, turn.x * xy.y - turn.y * xy.x);
+  return local * cascade_map[c].z + cascade_map[c].xy;
+}

@@ -1,0 +1,226 @@
+// Light from the sea towards the eye, for every pixel that the lattice covered.
+//
+// Slopes come from the undisplaced point, filtered to the pixel's footprint; the variance that
+// the filter removed, plus that of waves which no texture holds, is the pixel's roughness.
+uniform sampler2DArray slope_map;
+uniform sampler2DArray moment_map;
+uniform sampler2D ripple_slope_map;
+uniform sampler2D foam_window_map;
+uniform sampler2D foam_map;
+uniform sampler2D cloud_map;
+#if SAMPLES > 1
+uniform sampler2DMS surface_map;
+#else
+uniform sampler2D surface_map;
+#endif
+in vec2 picture;
+out vec4 radiance;
+
+struct Waves {
+  vec2 slope;      // mean over the footprint, with respect to the undisplaced point
+  vec3 jacobian;   // J_xx, J_yy, J_xy: mean over the footprint
+  vec3 variance;   // xx, yy, xy: of the slopes within the footprint
+};
+
+vec3 normal_of(Waves w) {
+  float xx = 1.0 + w.jacobian.x, yy = 1.0 + w.jacobian.y, xy = w.jacobian.z;
+  vec3 n = vec3(xy * w.slope.y - w.slope.x * yy, xy * w.slope.x - w.slope.y * xx,
+                max(xx * yy - xy * xy, 0.12));
+  return normalize(n);
+}
+
+Waves gather(vec2 xy, float distance, vec3 v) {
+  Waves w = Waves(vec2(0.0), vec3(0.0), fine_variance.xyz);
+  float across = distance * ray_forward.w;
+  float cosine = max(v.z, 0.12);
+  int cascades = int(counts.x);
+  int c = 0;
+  for (; c < cascades; ++c) {
+    float lod = log2(max(across * inversesqrt(cosine) / cascade_map[c].w, 1.0));
+    if (lod > 6.5) break;
+    vec3 at = vec3(tile_coordinate(c, xy), float(c));
+    vec4 slope = textureLod(slope_map, at, lod);
+    vec4 moment = textureLod(moment_map, at, lod);
+    w.slope += slope.xy;
+    w.jacobian += vec3(slope.zw, moment.x);
+    w.variance += max(moment.yzw - vec3(slope.xy * slope.xy, slope.x * slope.y), vec3(0.0, 0.0, -1.0));
+    if (c < 2) cosine = clamp(dot(normal_of(w), v) + 0.04, 0.12, 1.0);
+  }
+  for (; c < cascades; ++c) w.variance += cascade_stats[c].xyz;
+  float ripple_lod = log2(max(across * inversesqrt(cosine) / ripple_map.w, 1.0));
+  int rippled = ripple_stats.w > 0.5 && ripple_lod < 5.5 ? 1 : 0;
+  w.variance += rippled > 0 ? vec3(0.0) : ripple_stats.xyz * ripple_stats.w;
+  for (; rippled > 0; --rippled) {
+    vec2 at = xy * ripple_map.z + ripple_map.xy;
+    w.slope += textureLod(ripple_slope_map, at, ripple_lod).xy;
+    // The share of their variance that a mip has lost, measured once: s-shaped in its level.
+    float lost = smoothstep(-0.5, 4.2, ripple_lod);
+    w.variance += ripple_stats.xyz * lost;
+  }
+  int regulars = int(counts.y);
+  for (int n = 0; n < regulars; ++n) {
+    vec4 wave = regular[n];
+    float phase = dot(wave.xy, xy) + wave.w;
+    vec2 unit = normalize(wave.xy);
+    w.slope -= wave.xy * wave.z * sin(phase);
+    float fold = -water_leaving.w * wave.z * length(wave.xy) * cos(phase);
+    w.jacobian += fold * vec3(unit * unit, unit.x * unit.y);
+  }
+  return w;
+}
+
+vec3 sun_glitter(Facets f, vec2 mean, vec3 variance, vec3 v) {
+  vec3 h = normalize(v + sun_direction.xyz);
+  if (sun_direction.z < -0.02 || h.z <= 0.02) return vec3(0.0);
+  vec2 off = -h.xy / h.z - mean;
+  // The sun's own disc widens every facet's glint.
+  vec3 s = variance + vec3(6e-6, 6e-6, 0.0);
+  float determinant = max(s.x * s.y - s.z * s.z, 1e-9);
+  float exponent = (s.y * off.x * off.x - 2.0 * s.z * off.x * off.y + s.x * off.y * off.y) / determinant;
+  float density = exp(-0.5 * min(exponent, 60.0)) / (2.0 * kPi * sqrt(determinant));
+  float h2 = h.z * h.z;
+  return sun_irradiance.rgb * (fresnel_exact(max(dot(h, v), 0.0)) * density / (4.0 * f.area * h2 * h2));
+}
+
+struct Foam {
+  float mask;      // white
+  float bubbles;   // turquoise below
+};
+
+Foam foam_at(vec2 xy, Waves w, float fold, float footprint) {
+  float spread = water_leaving.w * sqrt(max(w.variance.x + w.variance.y - fine_variance.x - fine_variance.y, 1e-6));
+  float cover = share_below(wind.w, fold, spread);
+  vec2 edge = abs(xy) / max(foam_window.w, 1e-3);
+  float inside = 1.0 - smoothstep(0.75, 0.97, max(edge.x, edge.y));
+  for (int near = inside > 0.0 ? 1 : 0; near > 0; --near) {
+    float lod = log2(max(footprint * foam_window.z * float(textureSize(foam_window_map, 0).x), 1.0));
+    float window = textureLod(foam_window_map, xy * foam_window.z + foam_window.xy, lod).r;
+    cover = mix(cover, window, inside);
+  }
+  float mask = cover;
+  float detail_lod = log2(max(footprint * foam_detail.z * 512.0, 1.0));
+  for (int laced = cover > 0.004 && detail_lod < 6.5 ? 1 : 0; laced > 0; --laced) {
+    vec2 at = xy * foam_detail.z + foam_detail.xy;
+    float lace = textureLod(foam_map, at, detail_lod).r;
+    float fine = textureLod(foam_map, vec2(0.8 * at.x - 0.6 * at.y, 0.6 * at.x + 0.8 * at.y) * 2.7, detail_lod + 1.43).r;
+    lace = clamp(0.5 + (0.72 * (lace - 0.5) + 0.42 * (fine - 0.5)), 0.0, 1.0);
+    const float kWidth = 0.12;
+    mask = smoothstep(1.0 - cover - kWidth, 1.0 - cover + kWidth, lace);
+    mask = mix(mask, cover, clamp(detail_lod * 0.25 - 0.75, 0.0, 1.0));
+  }
+  return Foam(mask, clamp(cover * 1.3, 0.0, 1.0));
+}
+
+vec3 shade_above(vec2 xy, float distance, vec3 direction) {
+  vec3 v = -direction;
+  Waves w = gather(xy, distance, v);
+  vec3 n = normal_of(w);
+  vec2 mean = -n.xy / n.z;
+  Facets f = visible_facets(mean, w.variance, v);
+  vec3 seen = normalize(vec3(-f.slope, 1.0));
+
+  // Reflection: from the mean visible facet, blurred by the spread of facets.
+  float cosine = clamp(dot(n, v), 0.0, 1.0);
+  float fresnel = fresnel_mean(cosine, f.deviation);
+  vec3 r = reflect(direction, seen);
+  float open = smoothstep(-0.25, 0.12, r.z);
+  r.z = abs(r.z) + 0.01;
+  vec3 reflected = sky_at(normalize(r), 0.7 * f.deviation) * mix(0.45, 1.0, open);
+
+  // Light out of the water; crests that the sun shines through.
+  vec3 body = water_leaving.rgb;
+  float fold = (1.0 + w.jacobian.x) * (1.0 + w.jacobian.y) - w.jacobian.z * w.jacobian.z;
+  float pinch = clamp(1.0 - fold, 0.0, 1.0);
+  float back = max(dot(sun_direction.xyz, direction), 0.0);
+  back *= back;
+  back *= back;
+  float face = 0.5 - 0.5 * dot(sun_direction.xyz, n);
+  float glow = pinch * (3.0 * back * face * face + 0.25 * max(0.0, dot(n.xy, v.xy)));
+  body += crest_radiance.rgb * glow;
+
+  float footprint = distance * ray_forward.w * inversesqrt(max(cosine, 0.12));
+  Foam foam = foam_at(xy, w, fold, footprint);
+  body += foam_irradiance.rgb * foam.bubbles;
+
+  float wet = 1.0 - foam.mask;
+  vec3 glint = min(sun_glitter(f, mean, w.variance, v), vec3(60.0));
+  vec3 colour = fresnel * reflected + (1.0 - fresnel) * body + glint * wet;
+  vec3 light = sun_irradiance.rgb * max(dot(n, sun_direction.xyz), 0.0) + sky_irradiance.rgb * (0.5 + 0.5 * n.z);
+  vec3 white = light * (0.55 / kPi);
+  colour = mix(colour, white, foam.mask * 0.92);
+  return through_air(colour, direction, distance);
+}
+
+#if UNDERSIDE
+// Through the surface from below: Snell's window, and outside it the water mirrored.
+vec3 shade_below(vec2 xy, float distance, vec3 direction) {
+  Waves w = gather(xy, distance, vec3(direction.xy, abs(direction.z)));
+  vec3 n = normal_of(w);
+  float cosine = clamp(dot(n, direction), 0.0, 1.0);
+  float sine2 = 1.34 * 1.34 * (1.0 - cosine * cosine);
+  vec3 below = 3.0 * water_leaving.rgb;
+  vec3 colour = below;
+  if (sine2 < 1.0) {
+    float out_cosine = sqrt(1.0 - sine2);
+    vec3 out_direction = 1.34 * direction + (out_cosine - 1.34 * cosine) * n;
+    float fresnel = fresnel_exact(out_cosine);
+    colour = mix(sky_at(normalize(out_direction), 0.1) * 1.8, below, fresnel);
+  }
+  vec3 passed = exp(-distance * vec3(0.30, 0.09, 0.07));
+  return mix(below, colour, passed);
+}
+#endif
+
+// Loops that run once or not at all stand for branches below: software rasterisers execute both
+// sides of an `if` for every pixel, but leave a loop as soon as no pixel of the block is in it.
+void main() {
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  vec3 direction = picture_ray(picture);
+#if SAMPLES > 1
+  vec4 sum = vec4(0.0);
+  float low = 1e9, high = -1e9;
+  for (int n = 0; n < SAMPLES; ++n) {
+    vec4 s = texelFetch(surface_map, pixel, n);
+    sum += s;
+    low = min(low, s.z);
+    high = max(high, s.z);
+  }
+  // One sheet of water: its middle speaks for all samples.
+  bool sheet = sum.w == float(SAMPLES) && high - low < 0.04 * abs(high) + 0.05;
+  float covered = sum.w / float(SAMPLES);
+  int shades = sheet ? 1 : (sum.w > 0.0 ? SAMPLES : 0);
+#else
+  vec4 sum = texelFetch(surface_map, pixel, 0);
+  float covered = sum.w;
+  int shades = covered > 0.5 ? 1 : 0;
+#endif
+  vec3 colour = vec3(0.0);
+  float weight = 0.0;
+  for (int n = 0; n < shades; ++n) {
+#if SAMPLES > 1
+    vec4 s = sheet ? sum * (1.0 / float(SAMPLES)) : texelFetch(surface_map, pixel, n);
+#else
+    vec4 s = sum;
+#endif
+    vec3 shaded = vec3(0.0);
+    for (int above = s.w > 0.5 && s.z >= 0.0 ? 1 : 0; above > 0; --above) {
+      shaded = shade_above(s.xy, s.z, direction);
+    }
+#if UNDERSIDE
+    for (int below = s.w > 0.5 && s.z < 0.0 ? 1 : 0; below > 0; --below) {
+      shaded = shade_below(s.xy, -s.z, direction);
+    }
+#endif
+    colour += shaded * s.w;
+    weight += s.w;
+  }
+  colour /= max(weight, 1.0);
+#if UNDERSIDE
+  if (eye.z < 0.0 && covered < 1.0) {
+    // No surface on this ray from under water: the body of the sea.
+    colour = mix(3.0 * water_leaving.rgb * (1.0 + 0.6 * direction.z), colour, covered);
+    covered = 1.0;
+  }
+#endif
+  radiance = vec4(colour * covered, covered);
+}

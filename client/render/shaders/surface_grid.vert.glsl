@@ -1,0 +1,40 @@
+// Places a vertex of the log-polar lattice on the displaced sea.
+uniform sampler2DArray displacement_map;
+out vec2 undisplaced;   // relative to the eye [m]
+out vec3 offset_eye;    // surface point less the eye [m]
+
+void main() {
+  int columns = int(grid.x);
+  int row = gl_VertexID / columns, column = gl_VertexID - row * columns;
+  float azimuth = grid.y + float(column) * grid.z;
+  float radius = exp(grid_rows.x + float(row) * grid.w);
+  if (row == 0 && grid_rows.y > 0.5) radius = 0.0;
+  vec2 xy = radius * vec2(cos(azimuth), sin(azimuth));
+
+  // Waves that the lattice can't carry are left to the shading: mips by the spacing of vertices.
+  float across = radius * grid.z, along = radius * grid.w;
+  float spacing = sqrt(across * along);
+  vec3 moved = vec3(0.0);
+  int cascades = int(counts.x);
+  for (int c = 0; c < cascades; ++c) {
+    float lod = log2(max(spacing / cascade_map[c].w, 1.0)) + 0.4;
+    if (lod > 6.0) break;  // cascades grow finer: the rest averages to nothing here
+    moved += textureLod(displacement_map, vec3(tile_coordinate(c, xy), float(c)), lod).xyz;
+  }
+  int regulars = int(counts.y);
+  for (int n = 0; n < regulars; ++n) {
+    vec4 wave = regular[n];
+    float phase = dot(wave.xy, xy) + wave.w;
+    moved += vec3(-water_leaving.w * normalize(wave.xy) * sin(phase), cos(phase)) * wave.z;
+  }
+
+  undisplaced = xy;
+  vec2 flat_xy = xy + moved.xy;
+  float drop = dot(flat_xy, flat_xy) / (2.0 * kEarthRadius);
+  vec3 world = vec3(flat_xy, moved.z - drop);
+  offset_eye = world - eye.xyz;
+  gl_Position = clip_from_world * vec4(world, 1.0);
+  // Logarithmic depth: centimetres at the lens, and no fighting between waves kilometres away.
+  float w = gl_Position.w;
+  gl_Position.z = (2.0 * log2(max(1e-6, 1.0 + w * 8.0)) / log2(1.0 + 120000.0 * 8.0) - 1.0) * w;
+}

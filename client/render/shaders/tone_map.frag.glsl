@@ -1,0 +1,39 @@
+// Radiance to display: exposure, glow, a filmic curve that bleaches highlights, sRGB, dither.
+uniform sampler2D scene;
+uniform sampler2D glow0;
+uniform sampler2D glow1;
+uniform sampler2D glow2;
+uniform float glow_share;
+in vec2 picture;
+out vec4 colour;
+
+// Crosstalk before the curve: bright colours drift to white as film does, instead of clipping.
+vec3 filmic(vec3 x) {
+  float luminance = dot(x, vec3(0.2126, 0.7152, 0.0722));
+  x = mix(x, vec3(luminance), 0.10);
+  // x^c / (x^c + m^c): a response curve whose slope at mid grey is the contrast c.
+  const float kContrast = 1.32, kMiddle = 0.56;
+  vec3 p = pow(max(x, vec3(0.0)), vec3(kContrast));
+  vec3 y = p / (p + pow(kMiddle, kContrast));
+  float grey = dot(y, vec3(0.2126, 0.7152, 0.0722));
+  return clamp(mix(vec3(grey), y, 1.14), 0.0, 1.0);
+}
+
+vec3 to_srgb(vec3 x) {
+  return mix(12.92 * x, 1.055 * pow(x, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, x));
+}
+
+float noise(vec2 at) { return fract(52.9829189 * fract(dot(at, vec2(0.06711056, 0.00583715)))); }
+
+void main() {
+  vec2 at = 0.5 * picture + 0.5;
+  vec3 x = texture(scene, at).rgb;
+  if (glow_share > 0.0) {
+    vec3 glow = 0.45 * texture(glow0, at).rgb + 0.33 * texture(glow1, at).rgb + 0.22 * texture(glow2, at).rgb;
+    x = mix(x, glow, glow_share);
+  }
+  x *= sun_irradiance.w;
+  vec3 y = to_srgb(filmic(x));
+  float dither = noise(gl_FragCoord.xy) - 0.5;
+  colour = vec4(y + dither / 255.0, 1.0);
+}
