@@ -196,10 +196,12 @@ absl::StatusOr<sea::SeaState> FromProto(const v1::SeaState& proto, std::string_v
                                       sea.systems[static_cast<std::size_t>(n)]));
   }
   ONESEA_RETURN_IF_ERROR(ReadRegularWaves(proto, prefix, sea));
-  ONESEA_RETURN_IF_ERROR(ExpandShorthand(proto, prefix, sea));
-  // Before the wind is guessed from the systems: the guess may rely on their shapes.
+  ONESEA_ASSIGN_OR_RETURN(std::optional<sea::SeaState> shorthand, SeaFromShorthand(proto, prefix));
+  if (shorthand) sea.systems = std::move(shorthand->systems);
+  // Before the wind is guessed from the systems: the guess relies on their shapes.
   ONESEA_RETURN_IF_ERROR(sea::ValidateSeaState(sea, prefix));
-  const Wind wind = DefaultWind(sea);
+  const Wind wind =
+      shorthand ? Wind{shorthand->wind_speed_m_per_s, shorthand->wind_to_rad} : DefaultWind(sea);
   sea.wind_speed_m_per_s =
       proto.has_wind_speed_m_per_s() ? proto.wind_speed_m_per_s() : wind.speed_m_per_s;
   ONESEA_RETURN_IF_ERROR(

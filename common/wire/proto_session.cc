@@ -172,8 +172,16 @@ absl::StatusOr<SessionInfo> FromProto(const v1::SessionInfo& proto) {
   ONESEA_RETURN_IF_ERROR(
       CheckInteger("session.", "stream_rate_hz", info.stream_rate_hz, 1, info.tick_rate_hz));
   ONESEA_ASSIGN_OR_RETURN(info.epoch_utc_ns, TimestampNs(proto.epoch_time()));
-  if (proto.has_latitude_deg()) info.latitude_deg = proto.latitude_deg();
-  if (proto.has_longitude_deg()) info.longitude_deg = proto.longitude_deg();
+  if (proto.has_latitude_deg()) {
+    ONESEA_RETURN_IF_ERROR(
+        CheckReal("session.", "latitude_deg", proto.latitude_deg(), -90.0, 90.0));
+    info.latitude_deg = proto.latitude_deg();
+  }
+  if (proto.has_longitude_deg()) {
+    ONESEA_RETURN_IF_ERROR(
+        CheckReal("session.", "longitude_deg", proto.longitude_deg(), -180.0, 360.0));
+    info.longitude_deg = proto.longitude_deg();
+  }
   info.viewer_count = proto.viewer_count();
   info.hs_m = proto.hs_m();
   ONESEA_RETURN_IF_ERROR(CheckReal("session.", "hs_m", info.hs_m, 0.0, 1e3));

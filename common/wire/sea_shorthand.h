@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -10,14 +11,14 @@
 /// The shorthands of session and sea files: a spectrum file, Beaufort force, WMO sea-state code.
 namespace onesea::wire {
 
-/// Reads the spectrum file beside a session file. InvalidArgument if `folder` is empty (an RPC) or
-/// the path leaves it.
+/// Reads the record of a spectrum file beside a session file into `out`. InvalidArgument if `folder` is
+/// empty (an RPC); what common/ingest says otherwise.
 absl::Status SystemFromFile(const v1::SpectrumFile& file, std::string_view prefix,
                             const std::string& folder, sea::WaveSystem& out);
 
-/// Adds the system that `beaufort` or `wmo_sea_state` stands for. InvalidArgument if both are
-/// given, or one beside explicit systems, or out of range. The waves travel with `wind`.
-absl::Status ExpandShorthand(const v1::SeaState& proto, std::string_view prefix,
-                             sea::SeaState& sea);
+/// The sea that `beaufort` or `wmo_sea_state` stands for; nothing if neither is given. InvalidArgument if both are, or
+/// one beside explicit systems, or out of range. The waves travel with `wind`.
+absl::StatusOr<std::optional<sea::SeaState>> SeaFromShorthand(const v1::SeaState& proto,
+                                                              std::string_view prefix);
 
 }  // namespace onesea::wire

@@ -287,7 +287,7 @@ SessionInfo SessionRunner::Info() const {
   info.component_hash = components.hash;
   info.sea_name = components.recipe.timeline.back().sea.name;
   info.probes_m = spec.probes_m;
-  info.transform = transform_ == sea::TransformKind::kOwn ? "own" : "fftw";
+  info.transform = sea::TransformName(transform_);
   return info;
 }
 
