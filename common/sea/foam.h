@@ -15,6 +15,10 @@ namespace onesea::sea {
 inline constexpr int kFoamRateHz = 4;  // lattice: foam instants are multiples of 1/4 s of sea time
 inline constexpr double kFoamMemoryS = 12.0;  // three e-foldings of the slow decay
 
+/// The window follows its centre only when that is further off than this: what it uncovers must be
+/// synthesised again.
+inline constexpr int kFoamSlackCells = 8;
+
 struct FoamWindowOptions {
   int cells = 512;      ///< side, power of two
   double cell_m = 1.0;  ///< foam cells are anchored at multiples of this in the drifting frame
@@ -25,9 +29,9 @@ class FoamWindow {
   FoamWindow(std::shared_ptr<const Components> components, FoamWindowOptions options);
   ~FoamWindow();
 
-  /// Brings the window to the last lattice instant at or before `time`, centred within a cell of
-  /// `centre`. Cost: a step of one lattice instant is a few ms; a jump (the first call too)
-  /// pre-rolls kFoamMemoryS: <= 1 s of CPU.
+  /// Brings the window to the last lattice instant at or before `time`, centred within
+  /// kFoamSlackCells of `centre`. Cost: a step of one lattice instant is a few ms; a jump (the
+  /// first call too) pre-rolls kFoamMemoryS: <= 1 s of CPU.
   void MoveTo(SimTime time, Vec2d centre);
 
   /// (cells x cells) uint8, wrap-around storage: the foam of drifting cell (i, j) is at [(j mod n)

@@ -1,5 +1,5 @@
-// Synthesis of 8 fields against B(N): the best bare FFTW for the same fields, four packed c2c on padded
-// rows, planned PATIENT, in this very process. Compare ratios, not microseconds.
+// Synthesis of 8 fields against B(N): the best bare FFTW for the same fields, four packed c2c on
+// padded rows, planned PATIENT, in this very process. Compare ratios, not microseconds.
 #include <benchmark/benchmark.h>
 #include <fftw3.h>
 
