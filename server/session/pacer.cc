@@ -35,7 +35,7 @@ std::int64_t Pacer::DueNs(Tick tick) const {
 bool Pacer::ForgiveDebt(Tick next_tick, std::int64_t now_ns) {
   const std::int64_t debt_ns = now_ns - DueNs(next_tick);
   if (debt_ns <= kDebtMaxNs) return false;
-  anchor_ns_ += debt_ns;
+  anchor_ns_ += debt_ns - kDebtMaxNs;
   return true;
 }
 
