@@ -104,6 +104,37 @@ TEST(BuildComponents, EverySeedHasTheRecipesHs) {
   EXPECT_EQ(hashes.size(), 20u);
 }
 
+// Rayleigh amplitudes: each wave's variance is exponential about its mean E, so m0 has the mean ΣE
+// and the variance ΣE². Over 100 seeds the standardised m0 must have mean 0 and deviation 1 within
+// four of their own standard errors, and no seed may leave five deviations.
+TEST(BuildComponents, RayleighSpreadsAsComputed) {
+  Recipe recipe = RecipeOf({JonswapSystem{}});
+  const auto fixed = Build(recipe);
+  double mean = 0.0;
+  double variance = 0.0;
+  for (const CascadeComponents& c : fixed->cascades) {
+    for (const double e : c.variance_m2[0]) {
+      mean += e;
+      variance += e * e;
+    }
+  }
+  recipe.amplitude = AmplitudeKind::kRayleigh;
+  constexpr int kSeeds = 100;
+  double sum = 0.0;
+  double sum2 = 0.0;
+  for (int seed = 1; seed <= kSeeds; ++seed) {
+    recipe.seed = static_cast<std::uint64_t>(seed);
+    const auto components = Build(recipe);
+    EXPECT_EQ(components->cascades[0].turns_per_flick, fixed->cascades[0].turns_per_flick);
+    const double z = (VarianceAt(*components, {0}) - mean) / std::sqrt(variance);
+    EXPECT_LT(std::fabs(z), 5.0) << "seed " << seed;
+    sum += z;
+    sum2 += z * z;
+  }
+  EXPECT_LT(std::fabs(sum / kSeeds), 4.0 / std::sqrt(kSeeds));
+  EXPECT_NEAR(std::sqrt(sum2 / kSeeds), 1.0, 4.0 / std::sqrt(2.0 * kSeeds));
+}
+
 // Resolution independence: a wave keeps its phase, frequency and energy whatever else the recipe
 // holds, here another grid size of the same cascade.
 TEST(BuildComponents, WavesDoNotDependOnTheGrid) {
