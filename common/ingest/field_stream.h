@@ -1,7 +1,9 @@
 #pragma once
 
 #include "absl/status/statusor.h"
+#include "absl/strings/str_cat.h"
 #include "absl/strings/string_view.h"
+#include "common/ingest/spectrum_axis.h"
 #include "common/ingest/text_lines.h"
 
 namespace onesea::ingest {
@@ -30,11 +32,11 @@ class FieldStream {
     return *value;
   }
 
-  /// A density: finite, >= 0 and fit for float.
+  /// In [0, kDensityMax].
   absl::StatusOr<double> TakeDensity(absl::string_view name) {
     const absl::StatusOr<double> value = TakeReal(name);
-    if (value.ok() && !(*value >= 0.0 && *value <= 1e30)) {
-      return lines_.Error(name, "is not in [0, 1e30]");
+    if (value.ok() && !(*value >= 0.0 && *value <= kDensityMax)) {
+      return lines_.Error(name, absl::StrCat(*value, " is not in [0, ", kDensityMax, "]"));
     }
     return value;
   }

@@ -9,13 +9,12 @@
 #include "absl/strings/strip.h"
 #include "common/base/check.h"
 #include "common/base/limits.h"
+#include "common/ingest/spectrum_axis.h"
 #include "common/ingest/text_lines.h"
 #include "common/ingest/utc_time.h"
 
 namespace onesea::ingest {
 namespace {
-
-constexpr std::size_t kFrequenciesMax = kSpectrumFrequenciesMax;
 
 // Real-time labels are centres rounded to a millihertz: below 0.1 Hz the bands are 5 mHz wide, so
 // that .0325 is written 0.033. Wider bands have labels that are exact.
@@ -26,23 +25,9 @@ double BandCentre(double label_hz) {
   return is_rounded ? label_hz - 0.0005 : label_hz;
 }
 
-absl::Status AppendFrequency(const TextLines& lines, absl::string_view text, double hz,
-                             std::vector<float>& frequency_hz) {
-  if (!(hz > 0.0 && hz <= 100.0)) return lines.Bad("frequency", text, "in (0, 100] Hz");
-  if (frequency_hz.size() == kFrequenciesMax) {
-    return lines.Error("frequency", absl::StrCat("more than ", kFrequenciesMax, " bands"));
-  }
-  const float value = static_cast<float>(hz);
-  if (!(value > 0.0F) || (!frequency_hz.empty() && !(value > frequency_hz.back()))) {
-    return lines.Bad("frequency", text, "above the one before it");
-  }
-  frequency_hz.push_back(value);
-  return absl::OkStatus();
-}
-
 absl::Status TakeValue(const TextLines& lines, absl::string_view text, std::vector<float>& value) {
   const std::optional<double> number = ParseReal(text);
-  if (!number || !(std::abs(*number) <= 1e6)) return lines.Bad("value", text, "a number");
+  if (!number || !(std::abs(*number) <= kDensityMax)) return lines.Bad("value", text, "a number");
   value.push_back(static_cast<float>(*number));
   return absl::OkStatus();
 }
@@ -122,8 +107,7 @@ absl::StatusOr<NdbcRow> ParseRealtimeRow(const TextLines& lines, bool may_have_s
   for (; !text.empty(); text = TakeField(rest)) {
     ONESEA_RETURN_IF_ERROR(TakeValue(lines, text, row.value));
     ONESEA_ASSIGN_OR_RETURN(const double label_hz, TakeLabel(lines, rest));
-    ONESEA_RETURN_IF_ERROR(
-        AppendFrequency(lines, absl::StrCat(label_hz), BandCentre(label_hz), row.frequency_hz));
+    ONESEA_RETURN_IF_ERROR(AppendFrequency(lines, BandCentre(label_hz), row.frequency_hz));
   }
   if (row.value.empty()) return lines.Truncated("value");
   return row;
@@ -190,7 +174,7 @@ absl::StatusOr<NdbcTable> ParseNdbcHistory(absl::string_view name, absl::string_
   for (absl::string_view f = TakeField(rest); !f.empty(); f = TakeField(rest)) {
     const std::optional<double> hz = ParseReal(f);
     if (!hz) return lines.Bad("frequency", f, "a number");
-    ONESEA_RETURN_IF_ERROR(AppendFrequency(lines, f, *hz, frequency_hz));
+    ONESEA_RETURN_IF_ERROR(AppendFrequency(lines, *hz, frequency_hz));
   }
   while (lines.NextNotBlank()) {
     if (absl::StartsWith(lines.line(), "#")) continue;

@@ -95,6 +95,16 @@ absl::StatusOr<Records> ParseByFirstLine(std::span<const NamedBytes> files) {
   return UnknownFormat(name, text);
 }
 
+// The readers check what they can place in a line; this is the contract with everything after.
+absl::Status Validate(absl::string_view name, SpectrumRecord& record) {
+  sea::SeaState sea;
+  sea.systems.push_back(std::move(record.system));
+  const absl::Status status = sea::ValidateSeaState(sea, "");
+  record.system = std::move(sea.systems.front());
+  if (status.ok()) return status;
+  return FileError(name, 0, absl::StrCat("record ", record.time_utc), status.message());
+}
+
 absl::StatusOr<NamedBytes> ReadWithOrWithoutGz(const std::string& path) {
   const std::string plain = WithoutGz(path);
   const std::string other = plain == path ? absl::StrCat(path, ".gz") : plain;
@@ -134,6 +144,9 @@ absl::StatusOr<Records> ParseSpectrum(std::span<const NamedBytes> files) {
   }
   ONESEA_ASSIGN_OR_RETURN(Records records, ParseByFirstLine(texts));
   if (records.empty()) return FileError(files[0].name, 0, "file", "holds no record with waves");
+  for (SpectrumRecord& record : records) {
+    ONESEA_RETURN_IF_ERROR(Validate(files[0].name, record));
+  }
   std::stable_sort(
       records.begin(), records.end(),
       [](const SpectrumRecord& a, const SpectrumRecord& b) { return a.time_utc < b.time_utc; });

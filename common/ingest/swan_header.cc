@@ -7,10 +7,10 @@
 #include "absl/strings/ascii.h"
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
-#include "absl/strings/str_format.h"
 #include "common/base/check.h"
 #include "common/base/limits.h"
 #include "common/ingest/direction.h"
+#include "common/ingest/spectrum_axis.h"
 
 namespace onesea::ingest {
 namespace {
@@ -57,11 +57,7 @@ absl::Status ReadFrequencies(TextLines& lines, SwanHeader& header) {
                           ReadCount(lines, "frequencies", 2, kSpectrumFrequenciesMax));
   for (int i = 0; i < count; ++i) {
     ONESEA_ASSIGN_OR_RETURN(const double hz, ReadReal(lines, "frequency"));
-    const float before = i > 0 ? header.frequency_hz.back() : 0.0F;
-    if (!(static_cast<float>(hz) > before && hz <= 100.0)) {
-      return lines.Error("frequency", absl::StrFormat("%g Hz is not ascending in (0, 100]", hz));
-    }
-    header.frequency_hz.push_back(static_cast<float>(hz));
+    ONESEA_RETURN_IF_ERROR(AppendFrequency(lines, hz, header.frequency_hz));
   }
   return absl::OkStatus();
 }

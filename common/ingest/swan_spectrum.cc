@@ -75,8 +75,8 @@ absl::StatusOr<sea::GridSpectrum> ParseMatrix(const SwanHeader& header, TextLine
     for (float& cell : row) {
       ONESEA_ASSIGN_OR_RETURN(const double value, fields.TakeReal("density"));
       const double density = IsException(column, value) ? 0.0 : value * scale;
-      if (!(density >= 0.0 && density <= 1e30)) {
-        return lines.Error("density", absl::StrFormat("%g is negative or too large", density));
+      if (!(density >= 0.0 && density <= kDensityMax)) {
+        return lines.Error("density", absl::StrCat(density, " is not in [0, ", kDensityMax, "]"));
       }
       cell = static_cast<float>(density);
     }
@@ -108,8 +108,8 @@ absl::Status ParseLine(const SwanHeader& header, const TextLines& lines, Spectru
       case SwanQuantity::kVarianceDensity:
       case SwanQuantity::kEnergyDensity:
         out.density = *value * VarianceScale(column);
-        if (!(out.density >= 0.0 && out.density <= 1e30)) {
-          return lines.Bad("density", text, "in [0, 1e30]");
+        if (!(out.density >= 0.0 && out.density <= kDensityMax)) {
+          return lines.Bad("density", text, absl::StrCat("in [0, ", kDensityMax, "]"));
         }
         break;
       case SwanQuantity::kDirection:

@@ -13,6 +13,7 @@
 #include "common/ingest/direction.h"
 #include "common/ingest/field_stream.h"
 #include "common/ingest/grid_axes.h"
+#include "common/ingest/spectrum_axis.h"
 #include "common/ingest/text_lines.h"
 #include "common/ingest/utc_time.h"
 #include "common/sea/statistics.h"
@@ -53,11 +54,7 @@ absl::StatusOr<Header> ParseHeader(TextLines& lines) {
   FieldStream fields(lines);
   for (int i = 0; i < header.frequency_count; ++i) {
     ONESEA_ASSIGN_OR_RETURN(const double hz, fields.TakeReal("frequency"));
-    const float before = i > 0 ? header.frequency_hz.back() : 0.0F;
-    if (!(static_cast<float>(hz) > before && hz <= 100.0)) {
-      return lines.Error("frequency", absl::StrFormat("%g Hz is not ascending in (0, 100]", hz));
-    }
-    header.frequency_hz.push_back(static_cast<float>(hz));
+    ONESEA_RETURN_IF_ERROR(AppendFrequency(lines, hz, header.frequency_hz));
   }
   std::vector<double> wave_to_rad;
   for (int i = 0; i < header.direction_count; ++i) {

@@ -125,7 +125,7 @@ TEST(NdbcHistory, OutOfRangeNamesFileLineFieldAndLimit) {
       {3, "    50", "   101", "x/41010j2019.txt:2: r1: '101' is not in [0, 100]"},
       {4, "    25", "    -1", "x/41010k2019.txt:2: r2: '-1' is not in [0, 100]"},
       {0, "2019 02", "2019 13", "x/41010w2019.txt:2: time: "},
-      {0, ".1000", ".0900", "x/41010w2019.txt:1: frequency: '.0900' is not above"},
+      {0, ".1000", ".0900", "x/41010w2019.txt:1: frequency: 0.09 Hz is not above"},
       {0, "  3.00", "", "2 values for 3 frequencies"},
       {0, "  3.00", " 3.0 4.0", "the header names fewer frequencies"}};
   for (const BadCell& cell : cells) {
