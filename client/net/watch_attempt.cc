@@ -136,7 +136,10 @@ absl::Status WatchAttempt::Accept(const wire::Frame& frame) {
   }
   const bool gap = last_sequence_ >= 0 && frame.sequence != last_sequence_ + 1;
   last_sequence_ = frame.sequence;
-  if (frame.welcome.has_value()) tick_rate_hz_ = frame.welcome->recipe.tick_rate_hz;
+  if (frame.welcome.has_value()) {
+    tick_rate_hz_ = frame.welcome->recipe.tick_rate_hz;
+    epoch_utc_ns_ = frame.welcome->session.epoch_utc_ns;
+  }
   if (frame.stamp.has_value()) {
     ONESEA_RETURN_IF_ERROR(
         CheckMonotonic("stamp.server_monotonic_ns", frame.stamp->server_monotonic_ns));
@@ -212,6 +215,10 @@ void WatchAttempt::OnExchanged(std::int64_t now_ns) {
 void WatchAttempt::UseClock(std::int64_t now_ns) {
   if (!stamp_.has_value() || !sync_.synchronised()) return;
   absl::MutexLock lock(&client_.mutex_);
+  if (client_.epoch_utc_ns_ != epoch_utc_ns_) {
+    client_.epoch_utc_ns_ = epoch_utc_ns_;
+    client_.sea_clock_ = SeaClock();
+  }
   // At the first join any clock is better than none; after that the old one serves until the new
   // one is as good.
   clock_in_use_ = clock_in_use_ || !client_.sea_clock_.valid() || sync_.count() >= kFirstExchanges;

@@ -67,6 +67,7 @@ class WatchAttempt {
   std::int64_t last_news_ns_ = 0;
 
   int tick_rate_hz_ = 60;
+  std::int64_t epoch_utc_ns_ = 0;
   std::optional<wire::Stamp> stamp_;  // newest
   std::unique_ptr<v1::OneSea::Stub> stub_;
   ClockSync sync_;

@@ -1,0 +1,108 @@
+#include "tests/e2e/tcp_relay.h"
+
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <array>
+
+#include "common/base/check.h"
+
+namespace onesea::e2e {
+namespace {
+
+sockaddr_in Loopback(int port) {
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(static_cast<std::uint16_t>(port));
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  return address;
+}
+
+void NoDelay(int fd) {
+  const int on = 1;
+  setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &on, sizeof(on));
+}
+
+}  // namespace
+
+TcpRelay::TcpRelay(int server_port) : server_port_(server_port) {
+  listener_ = socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in address = Loopback(0);
+  socklen_t size = sizeof(address);
+  ONESEA_CHECK(bind(listener_, reinterpret_cast<sockaddr*>(&address), size) == 0);
+  ONESEA_CHECK(listen(listener_, 16) == 0);
+  getsockname(listener_, reinterpret_cast<sockaddr*>(&address), &size);
+  port_ = ntohs(address.sin_port);
+  thread_ = std::thread([this] { Run(); });
+}
+
+TcpRelay::~TcpRelay() {
+  stop_ = true;
+  thread_.join();
+  for (const Pair& pair : pairs_) {
+    close(pair.client);
+    close(pair.server);
+  }
+  close(listener_);
+}
+
+void TcpRelay::Accept() {
+  const int client = accept(listener_, nullptr, nullptr);
+  if (client < 0) return;
+  const int server = socket(AF_INET, SOCK_STREAM, 0);
+  const sockaddr_in address = Loopback(server_port_);
+  if (cut_ || connect(server, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0) {
+    close(client);
+    close(server);
+    return;
+  }
+  NoDelay(client);
+  NoDelay(server);
+  pairs_.push_back({client, server});
+}
+
+bool TcpRelay::Carry(int from, int to, std::atomic<std::int64_t>& count) {
+  std::array<char, 65536> buffer;
+  const ssize_t size = recv(from, buffer.data(), buffer.size(), 0);
+  if (size <= 0) return false;
+  count += size;
+  for (ssize_t sent = 0; sent < size;) {
+    const ssize_t n =
+        send(to, buffer.data() + sent, static_cast<std::size_t>(size - sent), MSG_NOSIGNAL);
+    if (n <= 0) return false;
+    sent += n;
+  }
+  return true;
+}
+
+void TcpRelay::Run() {
+  while (!stop_) {
+    std::vector<pollfd> fds = {{listener_, POLLIN, 0}};
+    for (const Pair& pair : pairs_) {
+      fds.push_back({pair.client, POLLIN, 0});
+      fds.push_back({pair.server, POLLIN, 0});
+    }
+    poll(fds.data(), fds.size(), 10);
+    std::vector<Pair> alive;
+    for (std::size_t n = 0; n < pairs_.size(); ++n) {
+      const Pair& pair = pairs_[n];
+      bool ok = !cut_;
+      if (ok && fds[1 + 2 * n].revents != 0) ok = Carry(pair.client, pair.server, to_server_);
+      if (ok && fds[2 + 2 * n].revents != 0) ok = Carry(pair.server, pair.client, to_client_);
+      if (ok) {
+        alive.push_back(pair);
+      } else {
+        close(pair.client);
+        close(pair.server);
+      }
+    }
+    pairs_ = alive;
+    if (fds[0].revents != 0) Accept();
+  }
+}
+
+}  // namespace onesea::e2e
