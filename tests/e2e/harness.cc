@@ -44,11 +44,15 @@ void TestServer::Start() {
 }
 
 void TestServer::Stop() {
-  if (rpc_ == nullptr) return;
-  rpc_->Shutdown(1.0);
-  absl::MutexLock lock(&mutex_);
-  rpc_ = nullptr;
-  registry_ = nullptr;
+  std::unique_ptr<server::Registry> registry;
+  std::unique_ptr<server::RpcServer> rpc;
+  {
+    // Out of reach first: a channel into a server that is going down is a bug of the caller's.
+    absl::MutexLock lock(&mutex_);
+    registry = std::move(registry_);
+    rpc = std::move(rpc_);
+  }
+  if (rpc != nullptr) rpc->Shutdown(1.0);
 }
 
 std::shared_ptr<server::SessionLoop> TestServer::Create(SessionSpec spec) {
