@@ -1,8 +1,10 @@
 #include "server/rpc/rpc_server.h"
 
+#include <grpc/support/log.h>
 #include <grpcpp/ext/proto_server_reflection_plugin.h>
 #include <grpcpp/grpcpp.h>
 #include <grpcpp/health_check_service_interface.h>
+#include <spdlog/spdlog.h>
 
 #include <chrono>
 #include <utility>
@@ -28,6 +30,9 @@ void SetKeepalive(grpc::ServerBuilder& builder) {
   // Two servers on one port would share its clients at random.
   builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
 }
+
+// gRPC's own log lines are for its developers; what an operator needs to know we say ourselves.
+void LogQuietly(gpr_log_func_args* args) { spdlog::debug("grpc: {}", args->message); }
 
 }  // namespace
 
@@ -58,6 +63,7 @@ void RpcServer::Impl::Shutdown(double grace_s) {
 absl::StatusOr<std::unique_ptr<RpcServer>> RpcServer::Start(const RpcServerOptions& options,
                                                             Registry& registry,
                                                             const Clock& clock) {
+  gpr_set_log_function(LogQuietly);
   auto impl = std::make_unique<Impl>(registry, clock, options.transform);
   grpc::EnableDefaultHealthCheckService(true);
   grpc::reflection::InitProtoReflectionServerBuilderPlugin();
