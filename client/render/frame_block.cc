@@ -164,6 +164,13 @@ SlopeStats MeasureSlopes(const CascadePlanes& planes) {
   return {stats.xx * scale, stats.yy * scale, stats.xy * scale, stats.height_variance_m2 * scale};
 }
 
+double UnresolvedSlopeVariance(const RenderFrame& frame, const std::vector<SlopeStats>& stats) {
+  double resolved = 0.0;
+  for (const SlopeStats& s : stats) resolved += s.xx + s.yy;
+  const double clean_sea = 0.003 + 0.00512 * frame.weather.wind_speed_m_per_s;
+  return std::clamp(clean_sea - resolved, frame.unresolved_mss, std::max(frame.unresolved_mss, 0.05));
+}
+
 FrameBlock MakeFrameBlock(const RenderFrame& frame, const SkyLight& light, const OceanGrid& grid,
                           const std::vector<SlopeStats>& stats, const SlopeStats& ripples,
                           double ripple_length_m, int width, int height) {
@@ -182,7 +189,7 @@ FrameBlock MakeFrameBlock(const RenderFrame& frame, const SkyLight& light, const
   block.ripple_stats = Pack(ripples.xx, ripples.yy, ripples.xy, frame.quality.ripples ? 1.0 : 0.0);
   // What is left, split along and across the wind after Cox & Munk: 0.00316 U : 0.003 + 0.00192 U.
   const double held = frame.quality.ripples ? ripples.xx + ripples.yy : 0.0;
-  const double rest = std::max(4e-4, frame.unresolved_mss - held);
+  const double rest = std::max(4e-4, UnresolvedSlopeVariance(frame, stats) - held);
   const double wind = std::max(1.0, frame.weather.wind_speed_m_per_s);
   const double along = rest * 0.00316 * wind / (0.003 + 0.00508 * wind), across = rest - along;
   const double c = std::cos(frame.weather.wind_to_rad), s = std::sin(frame.weather.wind_to_rad);

@@ -47,6 +47,10 @@ struct SlopeStats {
 };
 SlopeStats MeasureSlopes(const CascadePlanes& planes);
 
+/// Slope variance [-] of all waves that no cascade holds: what the recipe says, or what Cox & Munk
+/// (1954, clean sea: 0.003 + 0.00512 U) saw beyond the resolved part, whichever is more.
+double UnresolvedSlopeVariance(const RenderFrame& frame, const std::vector<SlopeStats>& stats);
+
 /// `ripples` is the slope variance that the ripple texture holds.
 FrameBlock MakeFrameBlock(const RenderFrame& frame, const SkyLight& light, const OceanGrid& grid,
                           const std::vector<SlopeStats>& stats, const SlopeStats& ripples,

@@ -124,7 +124,7 @@ void Renderer::Draw(const RenderFrame& frame, int width, int height, unsigned fr
   });
   r.Pass("mips", [&] { r.sea.MakeMips(); });
   r.Pass("ripples", [&] {
-    r.ripples.Draw(r.empty, frame.seed, frame.time_s, 0.55 * frame.unresolved_mss,
+    r.ripples.Draw(r.empty, frame.seed, frame.time_s, 0.66 * UnresolvedSlopeVariance(frame, stats),
                    frame.weather.wind_to_rad);
   });
 

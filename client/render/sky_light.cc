@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr int kColumns = SkyLight::kColumns, kRows = SkyLight::kRows;
-constexpr double kMeteredRadiance = 0.45;
+constexpr double kMeteredRadiance = 0.42;
 // Airglow and stars, so that a moonless night is dark and not black.
 const glm::vec3 kNightRadiance(0.9e-6f, 1.2e-6f, 2.0e-6f);
 const glm::vec3 kLuminance(0.2126f, 0.7152f, 0.0722f);
@@ -112,13 +112,13 @@ void Blur(int level, SkyLight& light) {
   }
 }
 
-// Log average of the sky between 2° and 40°, away from the sun.
+// Mean of the logarithm over the sky between 2° and 40°; the sun's glow is part of what is seen.
 double MeterExposure(const SkyLight& light) {
   double sum = 0.0, weights = 0.0;
   for (int row = 0; row < kRows; ++row) {
     const double elevation = RowElevation(row);
     if (elevation < 0.035 || elevation > 0.70) continue;
-    for (int column = kColumns / 10; column <= kColumns - kColumns / 10; ++column) {
+    for (int column = 0; column < kColumns; ++column) {
       const double luminance = glm::dot(light.radiance[At(0, row, column)], kLuminance);
       sum += CellSr(row) * std::log(std::max(luminance, 1e-9));
       weights += CellSr(row);

@@ -29,7 +29,7 @@ vec4 clouds(vec3 direction) {
   float shade = clamp(cloud_density(at + toward, threshold) * 3.5, 0.0, 1.0);
   float cosine = dot(direction, sun_direction.xyz);
   float silver = pow(max(0.0, 0.5 + 0.5 * cosine), 12.0) * (1.0 - clamp(density * 4.0, 0.0, 1.0));
-  vec3 lit = sun_irradiance.rgb * (0.16 * (1.0 - 0.65 * shade) + 1.1 * silver);
+  vec3 lit = sun_irradiance.rgb * (0.07 * (1.0 - 0.65 * shade) + 0.35 * silver);
   vec3 colour = cloud_radiance.rgb * mix(1.0, 0.62, shade * (0.4 + 0.6 * cover)) + lit * (1.0 - cover);
   return vec4(mix(sky_at(direction, 0.1), colour, far), opacity);
 }

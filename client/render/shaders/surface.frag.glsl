@@ -20,6 +20,7 @@ struct Waves {
   vec2 slope;      // mean over the footprint, with respect to the undisplaced point
   vec3 jacobian;   // J_xx, J_yy, J_xy: mean over the footprint
   vec3 variance;   // xx, yy, xy: of the slopes within the footprint
+  float folding;   // variance of J within the footprint, of the cascades alone
 };
 
 vec3 normal_of(Waves w) {
@@ -30,13 +31,13 @@ vec3 normal_of(Waves w) {
 }
 
 Waves gather(vec2 xy, float distance, vec3 v) {
-  Waves w = Waves(vec2(0.0), vec3(0.0), fine_variance.xyz);
+  Waves w = Waves(vec2(0.0), vec3(0.0), vec3(0.0), 0.0);
   float across = distance * ray_forward.w;
   float cosine = max(v.z, 0.12);
   int cascades = int(counts.x);
   int c = 0;
   for (; c < cascades; ++c) {
-    float lod = log2(max(across * inversesqrt(cosine) / cascade_map[c].w, 1.0));
+    float lod = log2(max(across * pow(cosine, -0.7) / cascade_map[c].w, 1.0));
     if (lod > 6.5) break;
     vec3 at = vec3(tile_coordinate(c, xy), float(c));
     vec4 slope = textureLod(slope_map, at, lod);
@@ -47,14 +48,20 @@ Waves gather(vec2 xy, float distance, vec3 v) {
     if (c < 2) cosine = clamp(dot(normal_of(w), v) + 0.04, 0.12, 1.0);
   }
   for (; c < cascades; ++c) w.variance += cascade_stats[c].xyz;
-  float ripple_lod = log2(max(across * inversesqrt(cosine) / ripple_map.w, 1.0));
+  // A wave of slope s changes J by choppiness times s.
+  w.folding = water_leaving.w * water_leaving.w * (w.variance.x + w.variance.y);
+  w.variance += fine_variance.xyz;
+  float ripple_lod = log2(max(across * pow(cosine, -0.9) / ripple_map.w, 1.0));
   int rippled = ripple_stats.w > 0.5 && ripple_lod < 5.5 ? 1 : 0;
   w.variance += rippled > 0 ? vec3(0.0) : ripple_stats.xyz * ripple_stats.w;
   for (; rippled > 0; --rippled) {
     vec2 at = xy * ripple_map.z + ripple_map.xy;
-    w.slope += textureLod(ripple_slope_map, at, ripple_lod).xy;
+    w.slope += 0.8 * textureLod(ripple_slope_map, at, ripple_lod).xy;
+    // The same tile again, finer and turned: waves of 2.5 cm, and no repetition after 3.7 m.
+    vec2 fine = textureLod(ripple_slope_map, mat2(0.77, 0.64, -0.64, 0.77) * at * 3.3, ripple_lod + 1.72).xy;
+    w.slope += 0.6 * (mat2(0.77, -0.64, 0.64, 0.77) * fine);
     // The share of their variance that a mip has lost, measured once: s-shaped in its level.
-    float lost = smoothstep(-0.5, 4.2, ripple_lod);
+    float lost = 0.64 * smoothstep(-0.5, 4.2, ripple_lod) + 0.36 * smoothstep(-2.2, 2.5, ripple_lod);
     w.variance += ripple_stats.xyz * lost;
   }
   int regulars = int(counts.y);
@@ -85,11 +92,13 @@ vec3 sun_glitter(Facets f, vec2 mean, vec3 variance, vec3 v) {
 struct Foam {
   float mask;      // white
   float bubbles;   // turquoise below
+  float shade;     // of its own relief
 };
 
 Foam foam_at(vec2 xy, Waves w, float fold, float footprint) {
-  float spread = water_leaving.w * sqrt(max(w.variance.x + w.variance.y - fine_variance.x - fine_variance.y, 1e-6));
-  float cover = share_below(wind.w, fold, spread);
+  float spread = sqrt(max(w.folding, 1e-6));
+  // Even a resolved fold foams by degrees: thin lace first, froth where it is deepest.
+  float cover = 0.85 * share_below(wind.w, fold, max(spread, 0.05));
   vec2 edge = abs(xy) / max(foam_window.w, 1e-3);
   float inside = 1.0 - smoothstep(0.75, 0.97, max(edge.x, edge.y));
   for (int near = inside > 0.0 ? 1 : 0; near > 0; --near) {
@@ -98,17 +107,20 @@ Foam foam_at(vec2 xy, Waves w, float fold, float footprint) {
     cover = mix(cover, window, inside);
   }
   float mask = cover;
+  float shade = 1.0;
   float detail_lod = log2(max(footprint * foam_detail.z * 512.0, 1.0));
   for (int laced = cover > 0.004 && detail_lod < 6.5 ? 1 : 0; laced > 0; --laced) {
     vec2 at = xy * foam_detail.z + foam_detail.xy;
     float lace = textureLod(foam_map, at, detail_lod).r;
     float fine = textureLod(foam_map, vec2(0.8 * at.x - 0.6 * at.y, 0.6 * at.x + 0.8 * at.y) * 2.7, detail_lod + 1.43).r;
     lace = clamp(0.5 + (0.72 * (lace - 0.5) + 0.42 * (fine - 0.5)), 0.0, 1.0);
-    const float kWidth = 0.12;
-    mask = smoothstep(1.0 - cover - kWidth, 1.0 - cover + kWidth, lace);
-    mask = mix(mask, cover, clamp(detail_lod * 0.25 - 0.75, 0.0, 1.0));
+    float width = clamp(0.6 * cover, 0.015, 0.17);
+    mask = smoothstep(1.0 - cover - width, 1.0 - cover + width, lace);
+    float froth = 1.0 - clamp(detail_lod * 0.25 - 0.5, 0.0, 1.0);
+    shade = mix(1.0, 0.72 + 0.5 * fine, froth);
+    mask = mix(cover, mask * (0.78 + 0.22 * lace), froth);
   }
-  return Foam(mask, clamp(cover * 1.3, 0.0, 1.0));
+  return Foam(mask, clamp(cover * 0.8, 0.0, 1.0), shade);
 }
 
 vec3 shade_above(vec2 xy, float distance, vec3 direction) {
@@ -146,7 +158,7 @@ vec3 shade_above(vec2 xy, float distance, vec3 direction) {
   vec3 glint = min(sun_glitter(f, mean, w.variance, v), vec3(60.0));
   vec3 colour = fresnel * reflected + (1.0 - fresnel) * body + glint * wet;
   vec3 light = sun_irradiance.rgb * max(dot(n, sun_direction.xyz), 0.0) + sky_irradiance.rgb * (0.5 + 0.5 * n.z);
-  vec3 white = light * (0.55 / kPi);
+  vec3 white = light * (0.55 / kPi) * foam.shade;
   colour = mix(colour, white, foam.mask * 0.92);
   return through_air(colour, direction, distance);
 }

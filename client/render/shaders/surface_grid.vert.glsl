@@ -17,7 +17,7 @@ void main() {
   vec3 moved = vec3(0.0);
   int cascades = int(counts.x);
   for (int c = 0; c < cascades; ++c) {
-    float lod = log2(max(spacing / cascade_map[c].w, 1.0)) + 0.4;
+    float lod = log2(max(spacing / cascade_map[c].w, 1.0)) + 0.8;
     if (lod > 6.0) break;  // cascades grow finer: the rest averages to nothing here
     moved += textureLod(displacement_map, vec3(tile_coordinate(c, xy), float(c)), lod).xyz;
   }

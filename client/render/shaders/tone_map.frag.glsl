@@ -7,6 +7,9 @@ uniform float glow_share;
 in vec2 picture;
 out vec4 colour;
 
+// The film's white is noon's sun and sky together, not the sun above the air.
+const vec3 kDaylight = vec3(0.95, 1.0, 1.12);
+
 // Crosstalk before the curve: bright colours drift to white as film does, instead of clipping.
 vec3 filmic(vec3 x) {
   float luminance = dot(x, vec3(0.2126, 0.7152, 0.0722));
@@ -32,7 +35,7 @@ void main() {
     vec3 glow = 0.45 * texture(glow0, at).rgb + 0.33 * texture(glow1, at).rgb + 0.22 * texture(glow2, at).rgb;
     x = mix(x, glow, glow_share);
   }
-  x *= sun_irradiance.w;
+  x *= sun_irradiance.w * kDaylight;
   vec3 y = to_srgb(filmic(x));
   float dither = noise(gl_FragCoord.xy) - 0.5;
   colour = vec4(y + dither / 255.0, 1.0);
