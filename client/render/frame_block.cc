@@ -168,7 +168,8 @@ double UnresolvedSlopeVariance(const RenderFrame& frame, const std::vector<Slope
   double resolved = 0.0;
   for (const SlopeStats& s : stats) resolved += s.xx + s.yy;
   const double clean_sea = 0.003 + 0.00512 * frame.weather.wind_speed_m_per_s;
-  return std::clamp(clean_sea - resolved, frame.unresolved_mss, std::max(frame.unresolved_mss, 0.05));
+  return std::clamp(clean_sea - resolved, frame.unresolved_mss,
+                    std::max(frame.unresolved_mss, 0.05));
 }
 
 FrameBlock MakeFrameBlock(const RenderFrame& frame, const SkyLight& light, const OceanGrid& grid,

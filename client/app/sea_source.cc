@@ -1,0 +1,179 @@
+#include "client/app/sea_source.h"
+
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
+#include "absl/strings/str_join.h"
+#include "absl/synchronization/mutex.h"
+#include "client/model/local_sea.h"
+#include "client/net/remote_server.h"
+#include "client/net/session_client.h"
+#include "common/base/check.h"
+#include "common/base/clock.h"
+#include "common/wire/session_file.h"
+
+namespace onesea::client {
+namespace {
+
+class FileSource : public SeaSource {
+ public:
+  FileSource(std::string path, SessionSpec spec, std::shared_ptr<const sea::Components> components)
+      : path_(std::move(path)),
+        speed_(spec.speed),
+        components_(std::move(components)),
+        start_ns_(SystemClock().MonotonicNs()) {}
+
+  std::shared_ptr<const sea::Components> components() const override { return components_; }
+  SimTime Now() override {
+    return SimTime::FromSeconds(speed_ * 1e-9 *
+                                static_cast<double>(SystemClock().MonotonicNs() - start_ns_));
+  }
+  SourceReport Report() override {
+    SourceReport report;
+    report.where = path_;
+    report.link = "offline";
+    report.tick = TickAtOrBefore(Now(), components_->recipe.tick_rate_hz);
+    report.speed = speed_;
+    return report;
+  }
+  absl::Status status() const override { return absl::OkStatus(); }
+
+ private:
+  std::string path_;
+  double speed_;
+  std::shared_ptr<const sea::Components> components_;
+  std::int64_t start_ns_;
+};
+
+class ServerSource : public SeaSource, private SessionListener {
+ public:
+  ServerSource(std::string address, const std::string& session)
+      : address_(std::move(address)), session_(session) {
+    SessionClientOptions options;
+    options.session = session;
+    options.client_name = "onesea-view";
+    client_ = std::make_unique<SessionClient>(ConnectTo(address_), options,
+                                              static_cast<SessionListener&>(*this));
+  }
+  ~ServerSource() override { client_->Stop(); }
+
+  // OK once a sea is there and its time is known.
+  absl::Status WaitForSea(std::int64_t timeout_ns) {
+    const std::int64_t end_ns = SystemClock().MonotonicNs() + timeout_ns;
+    while (SystemClock().MonotonicNs() < end_ns) {
+      ONESEA_RETURN_IF_ERROR(status());
+      if (components() != nullptr && client_->Now().valid) return absl::OkStatus();
+      SystemClock().SleepUntil(SystemClock().MonotonicNs() + 2'000'000);
+    }
+    return absl::DeadlineExceededError(
+        absl::StrCat("no sea from ", address_, " within ", timeout_ns / 1'000'000'000, " s"));
+  }
+
+  std::shared_ptr<const sea::Components> components() const override {
+    absl::MutexLock lock(&mutex_);
+    return sea_ == nullptr ? nullptr : sea_->components();
+  }
+  SimTime Now() override { return client_->Now().render; }
+  SourceReport Report() override {
+    const SeaTime now = client_->Now();
+    SourceReport report;
+    report.where = absl::StrCat(address_, ", session ", session_);
+    report.speed = now.speed;
+    report.clock_error_s = now.error_bound_s;
+    absl::MutexLock lock(&mutex_);
+    report.link = link_;
+    if (sea_ == nullptr) return report;
+    report.tick = TickAtOrBefore(now.render, sea_->components()->recipe.tick_rate_hz);
+    const Drift drift = sea_->drift();
+    if (drift.comparisons > 0) report.drift_m = drift.last_m;
+    return report;
+  }
+  absl::Status status() const override {
+    absl::MutexLock lock(&mutex_);
+    return status_;
+  }
+
+ private:
+  void OnFrame(const wire::Frame& frame) override {
+    absl::MutexLock lock(&mutex_);
+    if (frame.welcome.has_value()) Welcome(*frame.welcome);
+    if (frame.probes.has_value() && sea_ != nullptr) {
+      const absl::StatusOr<double> drift = sea_->CompareProbes(*frame.probes);
+      if (drift.ok()) client_->ReportDrift(*drift);
+    }
+  }
+  void Welcome(const wire::Welcome& welcome) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_) {
+    if (sea_ != nullptr) {
+      status_ = sea_->Follow(welcome);
+      return;
+    }
+    absl::StatusOr<std::unique_ptr<LocalSea>> sea = LocalSea::Make(welcome);
+    status_ = sea.status();
+    if (sea.ok()) sea_ = std::move(*sea);
+  }
+  void OnLink(const LinkEvent& event) override {
+    absl::MutexLock lock(&mutex_);
+    switch (event.state) {
+      case LinkState::kConnecting:
+        link_ = "connecting";
+        break;
+      case LinkState::kLive:
+        link_ = "live";
+        break;
+      case LinkState::kWaiting:
+        link_ = absl::StrCat("waiting: ", event.status.message());
+        break;
+      case LinkState::kStopped:
+        link_ = "stopped";
+        break;
+      case LinkState::kFailed:
+        link_ = "failed";
+        status_ = event.status;
+        break;
+    }
+  }
+
+  const std::string address_, session_;
+  mutable absl::Mutex mutex_;
+  std::unique_ptr<LocalSea> sea_ ABSL_GUARDED_BY(mutex_);
+  std::string link_ ABSL_GUARDED_BY(mutex_) = "connecting";
+  absl::Status status_ ABSL_GUARDED_BY(mutex_);
+  std::unique_ptr<SessionClient> client_;  // last: stops before what it calls is gone
+};
+
+absl::StatusOr<std::string> OnlySession(const std::string& address) {
+  RemoteServer server(ConnectTo(address));
+  ONESEA_ASSIGN_OR_RETURN(const std::vector<SessionInfo> sessions, server.ListSessions());
+  if (sessions.empty()) {
+    return absl::NotFoundError(
+        absl::StrCat(address, " has no session: make one with `onesea create FILE`"));
+  }
+  if (sessions.size() == 1) return sessions[0].name;
+  std::vector<std::string> names;
+  for (const SessionInfo& session : sessions) names.push_back(session.name);
+  return absl::InvalidArgumentError(absl::StrCat(
+      address, " has several sessions, choose one with --session: ", absl::StrJoin(names, ", ")));
+}
+
+}  // namespace
+
+absl::StatusOr<std::unique_ptr<SeaSource>> OpenSessionFile(const std::string& path) {
+  ONESEA_ASSIGN_OR_RETURN(SessionSpec spec, wire::ReadSessionFile(path));
+  ONESEA_ASSIGN_OR_RETURN(std::shared_ptr<const sea::Components> components,
+                          sea::BuildComponents(spec.recipe));
+  return std::make_unique<FileSource>(path, std::move(spec), std::move(components));
+}
+
+absl::StatusOr<std::unique_ptr<SeaSource>> JoinServer(const std::string& address,
+                                                      const std::string& session) {
+  std::string name = session;
+  if (name.empty()) {
+    ONESEA_ASSIGN_OR_RETURN(name, OnlySession(address));
+  }
+  auto source = std::make_unique<ServerSource>(address, name);
+  ONESEA_RETURN_IF_ERROR(source->WaitForSea(10'000'000'000));
+  return source;
+}
+
+}  // namespace onesea::client
