@@ -27,7 +27,10 @@ namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::CappedTag<float, kStripLanes>;
 using V = hn::Vec<D>;
 
+// An implicit constructor would not get the target's attributes, and NEON's could not be inlined.
 struct Complex {
+  HWY_INLINE Complex() {}
+  HWY_INLINE Complex(V real, V imaginary) : re(real), im(imaginary) {}
   V re, im;
 };
 

@@ -123,6 +123,7 @@ HWY_INLINE void FetchCorners(const float* plane, int grid_size, Block& block) {
 }
 
 struct Corners {
+  HWY_INLINE Corners() {}  // an implicit one would not get the target's attributes
   V c00, c10, c01, c11;
 };
 HWY_INLINE Corners LoadCorners(const Block& block, std::size_t n) {

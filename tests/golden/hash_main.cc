@@ -4,13 +4,18 @@
 #include <bit>
 #include <cinttypes>
 #include <cstdio>
+#include <memory>
 #include <string>
+#include <vector>
 
 #include "common/base/fp_env.h"
 #include "common/base/hash.h"
 #include "common/base/real_math.h"
 #include "common/base/rng.h"
 #include "common/sea/components.h"
+#include "common/sea/point_query.h"
+#include "common/sea/surface.h"
+#include "hwy/targets.h"
 #include "tests/golden/named_recipes.h"
 
 namespace onesea::sea {
@@ -55,6 +60,56 @@ void PrintCascade(const std::string& name, std::size_t c, const CascadeComponent
   }
 }
 
+// All eleven fields of one cascade at one time.
+std::uint64_t SurfaceHash(const std::shared_ptr<const Components>& components, int cascade,
+                          int grid_size) {
+  constexpr FieldSet kAll = (FieldSet{1} << kFieldCount) - 1;
+  Synthesiser synthesiser(components, cascade, grid_size, kAll);
+  CascadeFields fields(grid_size, kAll);
+  synthesiser.Evaluate(SimTime::FromSeconds(12345.678), fields);
+  Hash64 hash;
+  for (int field = 0; field < kFieldCount; ++field) {
+    for (const float value : fields.Plane(static_cast<Field>(field))) hash.Add(value);
+  }
+  return hash.value();
+}
+
+// Answers to a thousand queries, normals and velocities included.
+std::uint64_t QueryHash(const std::shared_ptr<const Components>& components) {
+  SnapshotBuilder builder(components);
+  const auto snapshot = builder.At(SimTime::FromSeconds(-98.7), QueryDetail::kVelocity);
+  std::vector<Vec2d> points;
+  for (std::uint32_t n = 0; n < 1000; ++n) {
+    const auto w = Philox4x32({n, 7, 0, 0}, {1, 2});
+    points.push_back({5000.0 * UnitInterval(w[0], w[1]), -9000.0 * UnitInterval(w[2], w[3])});
+  }
+  std::vector<SurfaceSample> answers(points.size());
+  snapshot->Sample(points, answers);
+  Hash64 hash;
+  for (const SurfaceSample& a : answers) {
+    for (const float value :
+         {a.height_m, a.displacement_x_m, a.displacement_y_m, a.residual_m, a.normal_x, a.normal_y,
+          a.normal_z, a.velocity_x_m_per_s, a.velocity_y_m_per_s, a.velocity_z_m_per_s}) {
+      hash.Add(value);
+    }
+    hash.Add(static_cast<int>(a.folded));
+  }
+  return hash.value();
+}
+
+// One line; with a second one for every SIMD target of this machine that gives other bits.
+template <typename Function>
+void PrintForEveryTarget(const std::string& recipe, const std::string& stage, Function function) {
+  const std::uint64_t best = function();
+  Print(recipe, stage, best);
+  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+    hwy::SetSupportedTargetsForTest(target);
+    const std::uint64_t hash = function();
+    if (hash != best) Print(recipe, stage + "." + hwy::TargetName(target), hash);
+  }
+  hwy::SetSupportedTargetsForTest(0);
+}
+
 // Everything that is promised to be equal about one recipe; add further stages below.
 bool PrintRecipe(const NamedRecipe& named) {
   const auto components = BuildComponents(named.recipe);
@@ -66,6 +121,11 @@ bool PrintRecipe(const NamedRecipe& named) {
     PrintCascade(named.name, c, (*components)->cascades[c]);
   }
   Print(named.name, "components", (*components)->hash);
+  for (std::size_t c = 0; c < (*components)->cascades.size(); ++c) {
+    PrintForEveryTarget(named.name, "surface" + std::to_string(c) + ".128",
+                        [&] { return SurfaceHash(*components, static_cast<int>(c), 128); });
+  }
+  PrintForEveryTarget(named.name, "query", [&] { return QueryHash(*components); });
   return true;
 }
 
