@@ -55,7 +55,7 @@ struct Components {
   std::vector<double> lost_variance_m2;  ///< (weather entries) ∫S outside all bands
 };
 
-/// Cost: about 40 ms per wave system with the default cascades, one core. Immutable afterwards:
+/// Cost: about 20 ms per wave system with the default cascades, one core. Immutable afterwards:
 /// share it.
 absl::StatusOr<std::shared_ptr<const Components>> BuildComponents(const Recipe& recipe);
 
