@@ -85,7 +85,8 @@ double Interpolate(const PolarDensity& density, double ring, double turn) {
   const int i = std::min(static_cast<int>(y), kRows - 2), j = static_cast<int>(x) % kColumns;
   const double v = y - i, u = x - std::floor(x);
   const auto at = [&](int row, int column) {
-    return density.value[static_cast<std::size_t>(row * kColumns + column % kColumns)];
+    const int index = row * kColumns + column % kColumns;
+    return density.value[static_cast<std::size_t>(index)];
   };
   const double near = at(i, j) + u * (at(i, j + 1) - at(i, j));
   const double far = at(i + 1, j) + u * (at(i + 1, j + 1) - at(i + 1, j));

@@ -34,7 +34,7 @@ class FieldStream {
 
   /// In [0, kDensityMax].
   absl::StatusOr<double> TakeDensity(absl::string_view name) {
-    const absl::StatusOr<double> value = TakeReal(name);
+    absl::StatusOr<double> value = TakeReal(name);
     if (value.ok() && !(*value >= 0.0 && *value <= kDensityMax)) {
       return lines_.Error(name, absl::StrCat(*value, " is not in [0, ", kDensityMax, "]"));
     }

@@ -99,7 +99,7 @@ absl::StatusOr<Records> ParseByFirstLine(std::span<const NamedBytes> files) {
 absl::Status Validate(absl::string_view name, SpectrumRecord& record) {
   sea::SeaState sea;
   sea.systems.push_back(std::move(record.system));
-  const absl::Status status = sea::ValidateSeaState(sea, "");
+  absl::Status status = sea::ValidateSeaState(sea, "");
   record.system = std::move(sea.systems.front());
   if (status.ok()) return status;
   return FileError(name, 0, absl::StrCat("record ", record.time_utc), status.message());
