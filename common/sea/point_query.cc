@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "common/base/check.h"
+#include "common/base/real_math.h"
 #include "common/sea/constants.h"
 #include "common/sea/query_kernel.h"
 #include "common/sea/sheet_search.h"
@@ -59,6 +60,30 @@ QueryRegular MakeRegular(const RegularAt& wave, const Recipe& recipe) {
   return regular;
 }
 
+// HeightErrorBound. Bilinear interpolation of a wave with phase steps (a, b) from sample to sample
+// errs most at the centre of a cell, where it returns cos(a/2) cos(b/2) times the wave, without
+// shift: the error there is itself a sum of waves, Gaussian with variance σ² = Σ E (1 - cos(a/2)
+// cos(b/2))²; everywhere else it is smaller. The displacement errs likewise by at most λσ along any
+// direction, which moves the point and so changes the height by the slope of the surface in space,
+// taken as at most 1 (a steeper sea folds): together σ √(1 + λ²). kBoundSigmas of that are exceeded
+// by one point in 26 million; the inversion leaves less than kInversionErrorM.
+constexpr double kBoundSigmas = 5.5;
+constexpr double kInversionErrorM = 1e-3;
+
+// σ² of one weather entry.
+double InterpolationVariance(const Components& components, std::size_t entry) {
+  double sum_m2 = 0.0;
+  for (const CascadeComponents& waves : components.cascades) {
+    const double half_step_rad = kPi / waves.cascade.query_grid_size;
+    for (std::size_t n = 0; n < waves.i.size(); ++n) {
+      const double loss =
+          1.0 - real::Cos(half_step_rad * waves.i[n]) * real::Cos(half_step_rad * waves.j[n]);
+      sum_m2 += loss * loss * waves.variance_m2[entry][n];
+    }
+  }
+  return sum_m2;
+}
+
 }  // namespace
 
 struct SeaSnapshot::Impl {
@@ -102,6 +127,7 @@ struct SnapshotBuilder::Impl {
   // One per detail and cascade, made when first asked for.
   std::array<std::vector<Synthesiser>, 3> synthesisers;
   std::vector<double> weights;
+  std::vector<double> interpolation_variance_m2;  // per weather entry
   std::vector<RegularAt> regular;
 };
 
@@ -110,6 +136,9 @@ SnapshotBuilder::SnapshotBuilder(std::shared_ptr<const Components> components,
     : impl_(std::make_unique<Impl>()) {
   ONESEA_CHECK(components != nullptr);
   impl_->weights.resize(components->recipe.timeline.size());
+  for (std::size_t m = 0; m < impl_->weights.size(); ++m) {
+    impl_->interpolation_variance_m2.push_back(InterpolationVariance(*components, m));
+  }
   impl_->components = std::move(components);
   impl_->transform = transform;
 }
@@ -157,6 +186,13 @@ std::shared_ptr<const SeaSnapshot> SnapshotBuilder::At(SimTime time, QueryDetail
     snapshot->grids.cascades.push_back(grid);
   }
   WeatherWeights(components.recipe, time, impl_->weights);
+  double variance_m2 = 0.0;
+  for (std::size_t m = 0; m < impl_->weights.size(); ++m) {
+    variance_m2 += impl_->weights[m] * impl_->interpolation_variance_m2[m];
+  }
+  const double lambda = components.recipe.choppiness;
+  snapshot->height_error_bound_m =
+      kBoundSigmas * std::sqrt(variance_m2 * (1.0 + lambda * lambda)) + kInversionErrorM;
   RegularWavesAt(components, time, impl_->weights, impl_->regular);
   for (const RegularAt& wave : impl_->regular) {
     if (wave.amplitude_m > 0.0)

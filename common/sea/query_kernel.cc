@@ -32,12 +32,13 @@ using V = hn::Vec<D>;
 using VI = hn::Vec<DI>;
 
 constexpr int kB = kQueryBlock;
-constexpr float kConvergedM = 1e-3f;  // residual beyond which the careful path answers
-constexpr float kContractionMax =
-    0.7f;                             // ratio of successive steps beyond which the surface may fold
-constexpr float kStepNoiseM = 0.01f;  // smaller steps say nothing about contraction
-constexpr float kStretchMin =
-    0.3f;  // least eigenvalue of the Jacobian below which the surface may fold
+// Residual beyond which the careful path answers.
+constexpr float kConvergedM = 1e-3f;
+// Ratio of successive steps beyond which the surface may fold; steps below the noise say nothing.
+constexpr float kContractionMax = 0.45f;
+constexpr float kStepNoiseM = 0.01f;
+// Least eigenvalue of the Jacobian below which the surface may fold.
+constexpr float kStretchMin = 0.6f;
 
 struct alignas(64) Block {
   float frac_u[kCascadesMax][kB], frac_v[kCascadesMax][kB];

@@ -1,6 +1,7 @@
 #include "common/sea/sheet_search.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -15,6 +16,19 @@ namespace {
 constexpr double kSolvedM = 1e-4;
 constexpr double kSameRootM = 5e-3;
 constexpr int kNewtonSteps = 24;
+constexpr int kSpokes = 32;
+
+const std::array<Vec2d, kSpokes>& Spokes() {
+  static const std::array<Vec2d, kSpokes> spokes = [] {
+    std::array<Vec2d, kSpokes> made;
+    for (int n = 0; n < kSpokes; ++n) {
+      const real::SinCosPair angle = real::SinCos(2.0 * kPi * n / kSpokes);
+      made[n] = {angle.cos, angle.sin};
+    }
+    return made;
+  }();
+  return spokes;
+}
 
 struct Interpolated {
   double value, along_u, along_v;
@@ -70,6 +84,15 @@ void AddRegular(const QueryRegular& regular, Vec2d p, QueryPoint& sum) {
   sum.j_yx += factor(Field::kJacobianXY) * wave.cos;
 }
 
+constexpr double kThinDeterminant = 0.4;
+constexpr double kThinReach = 0.5;
+
+double Determinant(const QueryPoint& at) { return at.j_xx * at.j_yy - at.j_xy * at.j_yx; }
+
+double LeastStretch(const QueryPoint& at) {
+  return FoldOf(at.j_xx - 1.0, at.j_yy - 1.0, 0.5 * (at.j_xy + at.j_yx)).least;
+}
+
 struct Trial {
   Vec2d p;
   QueryPoint at;
@@ -90,7 +113,7 @@ class Search {
     Trial best = Try(start);
     for (int n = 0; n < kNewtonSteps && Norm(best.miss) > 0.1 * kSolvedM; ++n) {
       const QueryPoint& a = best.at;
-      double determinant = a.j_xx * a.j_yy - a.j_xy * a.j_yx;
+      double determinant = Determinant(a);
       if (std::abs(determinant) < 1e-3) determinant = std::copysign(1e-3, determinant);
       const Vec2d step = {(a.j_yy * best.miss.x - a.j_xy * best.miss.y) / determinant,
                           (a.j_xx * best.miss.y - a.j_yx * best.miss.x) / determinant};
@@ -114,51 +137,92 @@ class Search {
   Vec2d point_;
 };
 
-Vec2d FoldDirection(const QueryPoint& at) {
-  const FoldState fold = FoldOf(at.j_xx - 1.0, at.j_yy - 1.0, 0.5 * (at.j_xy + at.j_yx));
-  return {fold.direction_x, fold.direction_y};
-}
-
 // Sheets found so far; the highest answers.
-struct Sheets {
+class Sheets {
+ public:
   void Add(const Trial& root) {
-    if (count == 0) {
-      top = first = root;
-      count = 1;
-      return;
+    for (int n = 0; n < count_; ++n) {
+      if (Norm(root.p - roots_[n].p) < kSameRootM) return;
     }
-    if (Norm(root.p - first.p) < kSameRootM || Norm(root.p - top.p) < kSameRootM) return;
-    ++count;
-    if (root.at.height_m > top.at.height_m) top = root;
+    if (count_ < kSheetsMax) roots_[count_++] = root;
   }
-  Trial first{}, top{};
-  int count = 0;
+  int count() const { return count_; }
+  const Trial& Top() const {
+    return *std::max_element(
+        roots_.begin(), roots_.begin() + count_,
+        [](const Trial& a, const Trial& b) { return a.at.height_m < b.at.height_m; });
+  }
+
+ private:
+  static constexpr int kSheetsMax = 8;
+  std::array<Trial, kSheetsMax> roots_;
+  int count_ = 0;
 };
 
-// Walks from `centre` along ±direction; between two steps where the miss along the direction
-// changes sign lies a sheet.
-void Walk(const Search& search, const Trial& centre, Vec2d direction, double first_step_m,
-          Sheets& sheets) {
-  const Vec2d across = {-direction.y, direction.x};
-  for (const double sense : {1.0, -1.0}) {
-    Vec2d p = centre.p;
-    double along_before = 0.0;
-    bool known = false;
-    for (double step_m = first_step_m, gone_m = 0.0; gone_m < kSheetSearchM;
-         gone_m += step_m, step_m *= 1.2) {
-      p = p + (sense * step_m) * direction;
-      const Trial here = search.Try(p);
-      const double along = Dot(here.miss, direction) * sense;
-      if (known && (along < 0.0) != (along_before < 0.0)) {
-        if (const auto root = search.Solve(p)) sheets.Add(*root);
-        if (const auto root = search.Solve(p - (0.5 * sense * step_m) * direction))
-          sheets.Add(*root);
-      }
-      along_before = along;
-      known = true;
-      // Stay near the curve on which the miss across vanishes.
-      p = p - (0.7 * Dot(here.miss, across)) * across;
+// The undisplaced point within triangle abc that the triangle's linear map sends to the query
+// point, if there is one.
+std::optional<Vec2d> CoveredBy(const Trial& a, const Trial& b, const Trial& c) {
+  const Vec2d ab = b.miss - a.miss, ac = c.miss - a.miss;
+  const double area = ab.x * ac.y - ac.x * ab.y;
+  const double u = (ac.x * a.miss.y - a.miss.x * ac.y) / area;
+  const double v = (a.miss.x * ab.y - ab.x * a.miss.y) / area;
+  if (!(u >= 0.0 && v >= 0.0 && u + v <= 1.0)) return std::nullopt;
+  return a.p + u * (b.p - a.p) + v * (c.p - a.p);
+}
+
+// Is there a spot near `centre` that is folded or close to it? Without one the map is one to one
+// around it.
+bool MayFold(const Search& search, const Trial& centre) {
+  constexpr double kStretchSafe = 0.2;
+  constexpr int kSpokeStep = 4;
+  if (LeastStretch(centre.at) < kStretchSafe) return true;
+  for (const double radius_m : {0.15, 0.5, 1.5, 4.0}) {
+    for (int n = 0; n < kSpokes; n += kSpokeStep) {
+      const Trial probe = search.Try(centre.p + radius_m * Spokes()[n]);
+      if (LeastStretch(probe.at) < kStretchSafe) return true;
     }
+  }
+  return false;
+}
+
+// Every triangle of a fan of rings around `centre` that covers the query point holds a sheet. The
+// rings widen with their radius, since sheets that lie far apart are wide.
+void SearchRings(const Search& search, const Trial& centre, double first_radius_m, bool with_fan,
+                 Sheets& sheets) {
+  constexpr double kWiden = 1.2;
+  std::array<Trial, kSpokes> inner, outer;
+  inner.fill(centre);
+  const auto visit = [&](const Trial& a, const Trial& b, const Trial& c) {
+    const std::optional<Vec2d> start = CoveredBy(a, b, c);
+    if (!start) return;
+    const std::optional<Trial> root = search.Solve(*start);
+    // Kinks of the bilinear field may stop Newton; the sheet is there all the same.
+    sheets.Add(root ? *root : search.Try(*start));
+  };
+  // A pair of sheets too thin for the triangles: a vertex from which Newton would not go far.
+  const auto visit_thin = [&](const Trial& at, double spacing_m) {
+    const double miss_m = Norm(at.miss);
+    const bool flat = std::abs(Determinant(at.at)) < kThinDeterminant;
+    if (miss_m > kThinReach * spacing_m && !(flat && miss_m < spacing_m)) return;
+    if (const std::optional<Trial> root = search.Solve(at.p)) sheets.Add(*root);
+  };
+  bool first = true;
+  for (double radius_m = first_radius_m; radius_m < kSheetSearchM; radius_m *= kWiden) {
+    for (int n = 0; n < kSpokes; ++n) {
+      outer[n] = search.Try(centre.p + radius_m * Spokes()[n]);
+      visit_thin(outer[n], radius_m * (kWiden - 1.0));
+    }
+    for (int n = 0; n < kSpokes; ++n) {
+      const int next = (n + 1) % kSpokes;
+      if (first) {
+        if (with_fan) visit(centre, outer[n], outer[next]);
+        continue;
+      }
+      visit(inner[n], outer[n], outer[next]);
+      visit(inner[n], outer[next], inner[next]);
+    }
+    inner = outer;
+    first = false;
   }
 }
 
@@ -179,18 +243,19 @@ void FindTopSheet(const QueryGrids& grids, Vec2d point, SurfaceSample& sample) {
   if (!root) root = search.Solve(point);
   if (root) sheets.Add(*root);
   const Trial centre = root ? *root : search.Try(guess);
-  double finest_m = kSheetSearchM;
-  for (const QueryCascade& cascade : grids.cascades)
+  double finest_m = 1.0;
+  for (const QueryCascade& cascade : grids.cascades) {
     finest_m = std::min(finest_m, 1.0 / cascade.cells_per_m);
-  Walk(search, centre, FoldDirection(centre.at), finest_m, sheets);
-  // No sheet at all is possible only where bilinear kinks stop Newton: the nearest try answers, its
-  // residual tells.
-  const Trial& top = sheets.count > 0 ? sheets.top : centre;
+  }
+  if (!root || MayFold(search, centre)) SearchRings(search, centre, finest_m, !root, sheets);
+  // No sheet at all is possible only where kinks of the bilinear field stop Newton: the nearest try
+  // answers, and its residual tells.
+  const Trial& top = sheets.count() > 0 ? sheets.Top() : centre;
   sample.height_m = static_cast<float>(top.at.height_m);
   sample.displacement_x_m = static_cast<float>(point.x - top.p.x);
   sample.displacement_y_m = static_cast<float>(point.y - top.p.y);
   sample.residual_m = static_cast<float>(Norm(top.miss));
-  sample.folded = sheets.count > 1;
+  sample.folded = sheets.count() > 1;
 }
 
 }  // namespace onesea::sea

@@ -7,6 +7,7 @@
 
 #include "hwy/targets.h"
 #include "tests/sea/fake_sea.h"
+#include "tests/sea/fine_sea.h"
 
 namespace onesea::sea {
 namespace {
@@ -62,6 +63,45 @@ TEST(PointQuery, AgreesWithTheInvertedDirectSum) {
       EXPECT_LT(out[n].residual_m, 1e-3) << n;
     }
   }
+}
+
+// The claim: a million points, none beyond the bound. The oracle is FineSea, checked
+// against the direct sum here.
+TEST(PointQuery, ErrorBoundHoldsForAMillionPoints) {
+  const auto sea = FakeSea({.hs_m = 2.0});
+  const SimTime time = SimTime::FromSeconds(77.0);
+  const FineSea fine(sea, time);
+  SnapshotBuilder builder(sea);
+  const auto snapshot = builder.At(time, QueryDetail::kHeight);
+  const auto points = RandomPoints(1'000'000, 3000.0);
+  std::vector<SurfaceSample> out(points.size());
+  snapshot->Sample(points, out);
+  double worst_m = 0, sum2 = 0;
+  int folded = 0, checked = 0;
+  for (std::size_t n = 0; n < points.size(); ++n) {
+    if (out[n].folded) {
+      ++folded;
+      continue;
+    }
+    double px = points[n].x - out[n].displacement_x_m, py = points[n].y - out[n].displacement_y_m;
+    FinePoint at;
+    ASSERT_LT(fine.Invert(points[n].x, points[n].y, px, py, at), 1e-5) << n;
+    const double error_m = std::abs(out[n].height_m - at.height_m);
+    worst_m = std::max(worst_m, error_m);
+    sum2 += error_m * error_m;
+    if (n % 20000 == 0) {
+      const Inverted exact = InvertDirectly(*sea, time, points[n], {px, py});
+      ASSERT_NEAR(at.height_m, exact.at.height_m, 2e-4);
+      ++checked;
+    }
+  }
+  std::printf("bound %.4f m, worst %.4f m, rms %.5f m, %d folded\n", snapshot->HeightErrorBound(),
+              worst_m, std::sqrt(sum2 / static_cast<double>(points.size())), folded);
+  EXPECT_LT(worst_m, snapshot->HeightErrorBound());
+  // The bound is not idle either.
+  EXPECT_GT(worst_m, 0.3 * snapshot->HeightErrorBound());
+  EXPECT_LT(folded, 10);
+  EXPECT_GE(checked, 49);
 }
 
 }  // namespace
