@@ -38,7 +38,8 @@ constexpr SimTime TimeOfTick(Tick tick, std::int64_t tick_rate_hz) {
   return {tick * (kFlicksPerSecond / tick_rate_hz)};
 }
 
-/// Within the ±100 years that 64 bits of flicks hold with room for sums? A tick from outside must be asked this first.
+/// Within the ±100 years that 64 bits of flicks hold with room for sums? A tick from outside must
+/// be asked this first.
 /// Pre: IsTickRateExact(tick_rate_hz).
 constexpr bool IsTickInRange(Tick tick, std::int64_t tick_rate_hz) {
   constexpr std::int64_t kSecondsMax = 3'200'000'000;

@@ -132,7 +132,8 @@ absl::StatusOr<sea::GridSpectrum> Read(const v1::GridSpectrum& proto, std::strin
   return s;
 }
 
-// The system goes into place and not through StatusOr<WaveSystem>: gcc 12 sees ghosts in such a variant's destructor.
+// The system goes into place and not through StatusOr<WaveSystem>: gcc 12 sees ghosts in such a
+// variant's destructor.
 template <typename System>
 absl::Status Put(absl::StatusOr<System> system, sea::WaveSystem& out) {
   ONESEA_RETURN_IF_ERROR(system.status());

@@ -17,8 +17,8 @@ class QueryEngine {
   explicit QueryEngine(sea::TransformKind transform = sea::TransformKind::kOwn)
       : snapshots_(transform) {}
 
-  /// Thread-safe. `now` is the tick that a request without a time means. Depth answers are direct sums,
-  /// about 15 µs a point; points above the surface are listed as dry and get zeros.
+  /// Thread-safe. `now` is the tick that a request without a time means. Depth answers are direct
+  /// sums, about 15 µs a point; points above the surface are listed as dry and get zeros.
   absl::StatusOr<wire::QueryAnswer> Answer(const std::shared_ptr<const sea::Components>& components,
                                            Tick now, const wire::QueryRequest& request);
 

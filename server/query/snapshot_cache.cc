@@ -6,8 +6,8 @@
 namespace onesea::server {
 namespace {
 
-// Enough for the present tick, the one before and a few instants that clients return to; at the default
-// grids an entry takes 3 to 11 MB.
+// Enough for the present tick, the one before and a few instants that clients return to; at the
+// default grids an entry takes 3 to 11 MB.
 constexpr std::size_t kEntriesMax = 6;
 constexpr std::size_t kEntriesMin = 2;
 constexpr std::size_t kBytesMax = 64 << 20;
@@ -79,8 +79,8 @@ void SnapshotCache::ResetFor(const std::shared_ptr<const sea::Components>& compo
   built_.SignalAll();
 }
 
-// The oldest that is built; its storage may serve again. Those being built stay, so the cache can grow
-// by the number of threads for a moment.
+// The oldest that is built; its storage may serve again. Those being built stay, so the cache can
+// grow by the number of threads for a moment.
 std::shared_ptr<const sea::SeaSnapshot> SnapshotCache::EvictOldest() {
   auto oldest = entries_.end();
   for (auto entry = entries_.begin(); entry != entries_.end(); ++entry) {

@@ -10,10 +10,11 @@
 
 /// Snapshots of one sea at the instants that were asked for last.
 ///
-/// Problem: a snapshot costs a synthesis (0.6 ms and more), a point in it tens of nanoseconds; and many
-/// callers ask for the same instant, the present tick above all.
-/// Idea: keep the few used last; whoever asks for an instant that somebody is building waits for that
-/// one. A snapshot of more detail serves requests of less. Storage of what falls out is used again.
+/// Problem: a snapshot costs a synthesis (0.6 ms and more), a point in it tens of nanoseconds; and
+/// many callers ask for the same instant, the present tick above all.
+/// Idea: keep the few used last; whoever asks for an instant that somebody is building waits for
+/// that one. A snapshot of more detail serves requests of less. Storage of what falls out is used
+/// again.
 namespace onesea::server {
 
 class SnapshotCache {

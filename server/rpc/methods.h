@@ -3,7 +3,8 @@
 #include "onesea/v1/onesea.grpc.pb.h"
 #include "server/rpc/watch_methods.h"
 
-/// Which API serves which method: Watch and WatchStamps are raw async (watch_server.h), the rest is callback.
+/// Which API serves which method: Watch and WatchStamps are raw async (watch_server.h), the rest is
+/// callback.
 namespace onesea::server {
 
 template <class Base>

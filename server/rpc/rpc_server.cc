@@ -1,12 +1,12 @@
 #include "server/rpc/rpc_server.h"
 
 #include <grpc/support/log.h>
+#include <grpc/support/time.h>
 #include <grpcpp/ext/proto_server_reflection_plugin.h>
 #include <grpcpp/grpcpp.h>
 #include <grpcpp/health_check_service_interface.h>
 #include <spdlog/spdlog.h>
 
-#include <chrono>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
@@ -54,8 +54,7 @@ void RpcServer::Impl::Shutdown(double grace_s) {
   if (server == nullptr) return;
   server->GetHealthCheckService()->SetServingStatus(false);
   registry.CloseAll("the server stops");
-  server->Shutdown(std::chrono::system_clock::now() +
-                   std::chrono::milliseconds(static_cast<std::int64_t>(grace_s * 1e3)));
+  server->Shutdown(gpr_time_from_micros(static_cast<std::int64_t>(grace_s * 1e6), GPR_TIMESPAN));
   watch->Stop();
   server = nullptr;
 }

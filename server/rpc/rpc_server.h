@@ -11,8 +11,8 @@ namespace grpc {
 class Channel;
 }
 
-/// The gRPC server: the service, health, reflection, limits. Nothing of gRPC's shows here but the name
-/// of a channel, so that server/app needs none of its headers.
+/// The gRPC server: the service, health, reflection, limits. Nothing of gRPC's shows here but the
+/// name of a channel, so that server/app needs none of its headers.
 namespace onesea::server {
 
 class Registry;
@@ -38,8 +38,8 @@ class RpcServer {
   /// A channel without sockets; for tests and for programs that hold the server inside.
   std::shared_ptr<grpc::Channel> InProcessChannel();
 
-  /// Closes every session of the registry (viewers get the farewell), gives calls under way `grace_s`
-  /// seconds, then cancels them. Idempotent.
+  /// Closes every session of the registry (viewers get the farewell), gives calls under way
+  /// `grace_s` seconds, then cancels them. Idempotent.
   void Shutdown(double grace_s = 2.0);
 
  private:

@@ -8,9 +8,9 @@
 #include "server/rpc/worker.h"
 #include "server/session/registry.h"
 
-/// The methods of onesea.v1.OneSea but for Watch and WatchStamps: each translates, asks the registry, a
-/// session or the query desk, and translates back. Nothing here holds a gRPC thread for long; what builds
-/// components goes to a worker.
+/// The methods of onesea.v1.OneSea but for Watch and WatchStamps: each translates, asks the
+/// registry, a session or the query desk, and translates back. Nothing here holds a gRPC thread for
+/// long; what builds components goes to a worker.
 namespace onesea::server {
 
 class OneSeaService final : public OneSeaMethods {

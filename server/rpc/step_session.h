@@ -15,8 +15,8 @@
 /// One StepSession call.
 namespace onesea::server {
 
-/// Waiting (at the barrier or for its ticks) → answering (the optional query, on the worker) → finished.
-/// A cancelled call leaves the barrier. Deletes itself when gRPC is done with it.
+/// Waiting (at the barrier or for its ticks) → answering (the optional query, on the worker) →
+/// finished. A cancelled call leaves the barrier. Deletes itself when gRPC is done with it.
 class StepReactor final : public grpc::ServerUnaryReactor {
  public:
   StepReactor(const v1::StepSessionRequest* request, v1::StepSessionResponse* response,

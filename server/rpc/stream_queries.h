@@ -15,9 +15,10 @@ namespace onesea::server {
 
 /// 1. A request is read; a light one is answered at once, a heavy one goes to the worker.
 /// 2. Answers queue up and are written one at a time; a bad request's answer carries its error.
-/// 3. With kInFlightMax answers owed the next request is not read: the client feels HTTP/2's back-pressure.
-/// 4. When the client has closed its half and all is answered, or when the call is cancelled and the
-///    worker gave everything back, the call is finished. Deletes itself when gRPC is done with it.
+/// 3. With kInFlightMax answers owed the next request is not read: the client feels the
+///    back-pressure of HTTP/2.
+/// 4. When the client has closed its half and all is answered, or when the call is cancelled and
+///    the worker gave everything back, the call is finished. Deletes itself when gRPC is done.
 class StreamQueriesReactor final
     : public grpc::ServerBidiReactor<v1::QueryPointsRequest, v1::QueryPointsResponse> {
  public:

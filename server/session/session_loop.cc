@@ -15,7 +15,8 @@ namespace {
 
 // Ticks shorter than this are made in small batches: a thread can't be woken more often for good.
 constexpr std::int64_t kWaitMinNs = 500'000;
-// How far ahead a change of weather without a start begins, so that every viewer has built the new sea before.
+// How far ahead a change of weather without a start begins, so that every viewer has built the new
+// sea before.
 constexpr double kWeatherLeadS = 0.5;
 constexpr int kWeatherAttempts = 4;
 

@@ -143,7 +143,8 @@ wire::Stamp SessionRunner::StampAt(std::int64_t due_ns) const {
           .actual_speed = runs ? pacer_.actual_speed() : 0.0};
 }
 
-// When the tick that stands now was due: on the line of real time, or just now when time stands still.
+// When the tick that stands now was due: on the line of real time, or just now when time stands
+// still.
 std::int64_t SessionRunner::LastDueNs(std::int64_t now_ns) const {
   return pace_ == Pace::kRealTime ? pacer_.DueNs(session_.tick()) : now_ns;
 }

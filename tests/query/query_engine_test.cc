@@ -58,7 +58,8 @@ TEST_F(QueryEngineTest, AgreesWithTheDirectSum) {
   ASSERT_EQ(answer->height_m.size(), points.size());
   ASSERT_EQ(answer->normal.size(), 3 * points.size());
   ASSERT_EQ(answer->velocity_m_per_s.size(), 3 * points.size());
-  // Hs 1 m on a 3.1 m grid: bilinear interpolation cuts the crests of the shortest waves by 10 mm or two.
+  // Hs 1 m on a 3.1 m grid: bilinear interpolation cuts the crests of the shortest waves by 10 mm
+  // or two.
   constexpr double kToleranceM = 0.025;
   for (std::size_t n = 0; n < points.size(); ++n) {
     const sea::DirectSample exact = Exact(*components, SimTime::FromSeconds(1234.5), points[n]);

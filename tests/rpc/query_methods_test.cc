@@ -66,7 +66,8 @@ TEST_F(QueryMethods, Errors) {
   EXPECT_THAT(status.error_message(), HasSubstr("y_m[1]: nan is outside [-1e+07, 1e+07]"));
 }
 
-// 100 001 points are refused by the service, a million by gRPC's message limit before they are held.
+// 100 001 points are refused by the service, a million by gRPC's message limit before they are
+// held.
 TEST_F(QueryMethods, AMillionPointsAreRefused) {
   v1::QueryPointsResponse response;
   EXPECT_EQ(Call(&Stub::QueryPoints, QueryAt("small", 100'001), &response).error_code(),
@@ -131,7 +132,8 @@ TEST_F(QueryMethods, StreamGoesOnAfterABadRequest) {
   EXPECT_TRUE(stream->Finish().ok());
 }
 
-// The client neither reads nor ends: the server must hold only a few answers and let go when it is cancelled.
+// The client neither reads nor ends: the server must hold only a few answers and let go when it is
+// cancelled.
 TEST_F(QueryMethods, AStreamThatIsNotReadIsLetGo) {
   for (int round = 0; round < 20; ++round) {
     grpc::ClientContext context;

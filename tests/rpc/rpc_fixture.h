@@ -15,7 +15,8 @@
 
 namespace onesea::server {
 
-/// A server with one held session "small" and one lock-step session "lock", and a stub without sockets.
+/// A server with one held session "small" and one lock-step session "lock", and a stub without
+/// sockets.
 class RpcFixture : public ::testing::Test {
  protected:
   explicit RpcFixture(const std::string& listen_address = "") {

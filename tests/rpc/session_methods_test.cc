@@ -252,7 +252,8 @@ TEST_F(Step, TwoParticipantsMeet) {
   }
 }
 
-// A participant whose own deadline passes, or who is cancelled, no longer counts: the next two meet without it.
+// A participant whose own deadline passes, or who is cancelled, no longer counts: the next two meet
+// without it.
 TEST_F(Step, OneWhoGivesUpLeavesTheBarrier) {
   grpc::ClientContext context;
   context.set_deadline(std::chrono::system_clock::now() + std::chrono::milliseconds(50));

@@ -7,7 +7,8 @@ namespace {
 
 constexpr std::int64_t kSecond = 1'000'000'000;
 
-// 60 Hz has no whole period in nanoseconds; after ten days the due time is still exact to the rounding of one number.
+// 60 Hz has no whole period in nanoseconds; after ten days the due time is still exact to the
+// rounding of one number.
 TEST(Pacer, NothingAccumulates) {
   Pacer pacer(60, 1.0);
   pacer.Anchor(0, 123);

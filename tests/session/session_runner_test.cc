@@ -115,8 +115,8 @@ TEST_F(Fixture, WorksOffASmallDelayWithoutSkipping) {
 
 TEST_F(Fixture, SlowsDownWhenItCannotKeepUp) {
   Make(SmallSession());
-  // Each wake-up comes 200 ms after the last: more than the debt that is worked off (100 ms). So about half the time
-  // is lost, and it stays lost.
+  // Each wake-up comes 200 ms after the last: more than the debt that is worked off (100 ms). So
+  // about half the time is lost, and it stays lost.
   for (int n = 0; n < 50; ++n) {
     clock.Advance(200 * kMs);
     runner->Advance(clock.MonotonicNs(), deferred);
@@ -188,15 +188,16 @@ TEST_F(Fixture, RefusesWeatherThatBeginsInThePast) {
   EXPECT_EQ(runner->session().components()->recipe.timeline.size(), 1u);
 }
 
-// Brute force: the undisplaced point whose displaced position is the probe, found by fixed-point iteration on direct
-// sums in double.
+// Brute force: the undisplaced point whose displaced position is the probe, found by fixed-point
+// iteration on direct sums in double.
 TEST_F(Fixture, ProbeHeightsAreThoseOfTheDirectSum) {
   Make(SmallSession());
   Pass(2 * kSecond + 50 * kMs);
   const sea::Components& components = *runner->session().components();
   const wire::ProbeHeights& heights = recorder->probes.back();
   ASSERT_EQ(heights.height_m.size(), 3u);
-  // Bilinear interpolation between points 3.1 m apart; a tick too early or late would show as 10 mm and more.
+  // Bilinear interpolation between points 3.1 m apart; a tick too early or late would show as 10 mm
+  // and more.
   constexpr double kToleranceM = 0.008;
   for (std::size_t n = 0; n < 3; ++n) {
     const Vec2d probe = runner->session().spec().probes_m[n];
@@ -210,7 +211,8 @@ TEST_F(Fixture, ProbeHeightsAreThoseOfTheDirectSum) {
   }
 }
 
-// One is woken for every tick, the other for every third; where both stood, both hold the same state.
+// One is woken for every tick, the other for every third; where both stood, both hold the same
+// state.
 TEST_F(Fixture, StateDependsOnTicksAndCommandsOnly) {
   const auto run = [&](std::int64_t wake_ns) {
     Make(SmallSession());

@@ -1,4 +1,5 @@
-// Bytes that nobody meant: whatever arrives, decoding returns, and what it accepts is within the limits.
+// Bytes that nobody meant: whatever arrives, decoding returns, and what it accepts is within the
+// limits.
 #include <google/protobuf/descriptor.h>
 #include <google/protobuf/message.h>
 #include <gtest/gtest.h>
@@ -85,8 +86,8 @@ TEST(HostileBytes, RandomBytesAreRefusedOrHarmless) {
   }
 }
 
-// Sets the n-th float or double below `message` (of a repeated one its first element) to `value`; `n` counts down.
-// Returns the field's name, empty when there are fewer.
+// Sets the n-th float or double below `message` (of a repeated one its first element) to `value`;
+// `n` counts down. Returns the field's name, empty when there are fewer.
 std::string SetNumber(google::protobuf::Message& message, int& n, double value) {
   const auto* reflection = message.GetReflection();
   std::vector<const FieldDescriptor*> fields;
@@ -122,7 +123,8 @@ std::string SetNumber(google::protobuf::Message& message, int& n, double value) 
   return "";
 }
 
-// Every number of `proto` in turn is NaN and infinite; `accepts` says whether the decoder takes the whole.
+// Every number of `proto` in turn is NaN and infinite; `accepts` says whether the decoder takes the
+// whole.
 template <typename Proto, typename Accepts>
 void ExpectNoNanAnywhere(const Proto& proto, int numbers_min, Accepts accepts) {
   ASSERT_TRUE(accepts(proto));

@@ -149,7 +149,8 @@ TEST(SessionFile, ErrorsNameTheFile) {
   EXPECT_THAT(Message(status), HasSubstr("-2"));
 }
 
-// The published values of the record: Hs 4.71 m at 64 (47 since 2008) frequencies, all four moments.
+// The published values of the record: Hs 4.71 m at 64 (47 since 2008) frequencies, all four
+// moments.
 TEST(SessionFile, ReadsTheMeasuredStorm) {
   const absl::StatusOr<SessionSpec> spec = ReadSessionFile("deploy/sessions/storm-41010.textproto");
   ASSERT_TRUE(spec.ok()) << spec.status();

@@ -1,0 +1,128 @@
+// The bytes that proto/onesea/v1/WIRE.md shows are the bytes that we send and understand.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include "absl/strings/escaping.h"
+#include "common/wire/frame.h"
+#include "common/wire/proto_query.h"
+#include "common/wire/recipe_codec.h"
+#include "onesea/v1/frame.pb.h"
+
+namespace onesea::wire {
+namespace {
+
+std::map<std::string, std::string> ReadVectors() {
+  std::ifstream page("proto/onesea/v1/WIRE.md");
+  std::map<std::string, std::string> vectors;
+  std::string line;
+  while (std::getline(page, line)) {
+    if (line != "## Test vectors") continue;
+    while (std::getline(page, line) && line != "```") {
+    }
+    std::string name, hex;
+    while (std::getline(page, line) && line != "```") {
+      std::istringstream(line) >> name >> hex;
+      vectors[name] = absl::HexStringToBytes(hex);
+    }
+  }
+  return vectors;
+}
+
+class WireVectors : public ::testing::Test {
+ protected:
+  const std::string& Bytes(const std::string& name) { return vectors.at(name); }
+  std::map<std::string, std::string> vectors = ReadVectors();
+};
+
+TEST_F(WireVectors, AllAreThere) { EXPECT_EQ(vectors.size(), 8u); }
+
+TEST_F(WireVectors, Stamp) {
+  Frame frame;
+  frame.sequence = 300;
+  frame.stamp = Stamp{.tick = 600,
+                      .server_monotonic_ns = 1'000'000'000,
+                      .speed = 1.0,
+                      .pace = Pace::kRealTime,
+                      .actual_speed = 1.0};
+  EXPECT_EQ(EncodeFrame(frame), Bytes("stamp"));
+  const Frame decoded = DecodeFrame(Bytes("stamp")).value();
+  EXPECT_EQ(decoded.sequence, 300);
+  ASSERT_TRUE(decoded.stamp.has_value());
+  EXPECT_EQ(decoded.stamp->tick, 600);
+  EXPECT_EQ(decoded.stamp->server_monotonic_ns, 1'000'000'000);
+  EXPECT_EQ(decoded.stamp->speed, 1.0);
+  EXPECT_FALSE(decoded.probes || decoded.welcome || decoded.farewell || decoded.keyframe);
+}
+
+TEST_F(WireVectors, HeldWithProbes) {
+  const Frame decoded = DecodeFrame(Bytes("held")).value();
+  EXPECT_TRUE(decoded.keyframe);
+  EXPECT_EQ(decoded.stamp->pace, Pace::kHeld);
+  EXPECT_EQ(decoded.stamp->speed, 0.0);
+  EXPECT_EQ(decoded.probes->tick, 600);
+  EXPECT_EQ(decoded.probes->height_m, (std::vector<float>{1.5f, -0.25f}));
+  EXPECT_EQ(EncodeFrame(decoded), Bytes("held"));
+}
+
+TEST_F(WireVectors, Farewell) {
+  const Frame decoded = DecodeFrame(Bytes("farewell")).value();
+  EXPECT_EQ(decoded.farewell, "bye");
+  EXPECT_EQ(EncodeFrame(decoded), Bytes("farewell"));
+}
+
+TEST_F(WireVectors, ViewerMessages) {
+  v1::WatchRequest open;
+  open.mutable_open()->set_session("tank");
+  open.mutable_open()->set_credit(8);
+  EXPECT_EQ(open.SerializeAsString(), Bytes("open"));
+  v1::WatchRequest ack;
+  ack.mutable_ack()->set_sequence(300);
+  ack.mutable_ack()->set_drift_m(0.5f);
+  EXPECT_EQ(ack.SerializeAsString(), Bytes("ack"));
+}
+
+TEST_F(WireVectors, Query) {
+  QueryRequest request;
+  request.session = "tank";
+  request.id = 7;
+  request.points_m = {{1.0, -2.0}};
+  request.tick = 600;
+  v1::QueryPointsRequest proto;
+  ToProto(request, &proto);
+  EXPECT_EQ(proto.SerializeAsString(), Bytes("query"));
+}
+
+TEST_F(WireVectors, Answer) {
+  v1::QueryPointsResponse proto;
+  ASSERT_TRUE(proto.ParseFromString(Bytes("answer")));
+  const QueryAnswer answer = FromProto(proto).value();
+  EXPECT_EQ(answer.id, 7);
+  EXPECT_EQ(answer.time_s, 10.0);
+  EXPECT_EQ(answer.layers, 1u);
+  EXPECT_EQ(answer.height_m, std::vector<float>{0.5f});
+  EXPECT_EQ(answer.height_error_bound_m, 0.0078125);
+}
+
+TEST_F(WireVectors, Recipe) {
+  const sea::Recipe recipe = DecodeRecipe(Bytes("recipe")).value();
+  EXPECT_EQ(recipe.seed, 1u);
+  EXPECT_EQ(recipe.tick_rate_hz, 60);
+  EXPECT_EQ(recipe.depth_m, 12.0);
+  EXPECT_EQ(recipe.choppiness, 1.0);
+  ASSERT_EQ(recipe.cascades.size(), 1u);
+  EXPECT_EQ(recipe.cascades[0].length_m, 200.0);
+  EXPECT_EQ(recipe.cascades[0].wavenumber_max_rad_per_m, 0.125);
+  EXPECT_EQ(recipe.cascades[0].query_grid_size, 64);
+  ASSERT_EQ(recipe.timeline.size(), 1u);
+  EXPECT_EQ(recipe.timeline[0].sea.name, "tank");
+  ASSERT_EQ(recipe.timeline[0].sea.regular_waves.size(), 1u);
+  EXPECT_EQ(recipe.timeline[0].sea.regular_waves[0].amplitude_m, 0.5);
+  EXPECT_EQ(recipe.timeline[0].sea.regular_waves[0].period_s, 8.0);
+  EXPECT_EQ(EncodeRecipe(recipe), Bytes("recipe"));
+}
+
+}  // namespace
+}  // namespace onesea::wire
