@@ -1,0 +1,224 @@
+// How much a viewer costs, beside the least it could: N light viewers on loopback against a server
+// in a process of its own, then as many plain sockets with frames of the same size. With --query
+// also the latency of 100-point queries on one stream while the viewers are served.
+//
+//   fanout_bench [--viewers=500] [--seconds=5] [--shards=1] [--every_frame=1] [--query=1]
+//
+// Server and viewers share the machine's cores. Loopback only; at most 4000 viewers and 60 seconds.
+#include <poll.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <random>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "client/net/remote_server.h"
+#include "common/base/check.h"
+#include "common/base/clock.h"
+#include "server/rpc/rpc_server.h"
+#include "server/session/registry.h"
+#include "tests/bench/child.h"
+#include "tests/bench/crowd.h"
+#include "tests/bench/light_viewer.h"
+#include "tests/bench/plain_fanout.h"
+
+namespace onesea::bench {
+namespace {
+
+constexpr int kStreamRateHz = 30;
+constexpr int kQueryPoints = 100;
+
+struct Options {
+  int viewers = 500;
+  int seconds = 5;
+  int shards = 1;
+  bool every_frame = true;
+  bool query = true;
+};
+
+int IntOf(const char* argument, const char* name, int fallback, int least, int most) {
+  const std::size_t size = std::strlen(name);
+  if (std::strncmp(argument, name, size) != 0) return fallback;
+  return std::clamp(std::atoi(argument + size), least, most);
+}
+
+Options Parse(int argc, char** argv) {
+  Options options;
+  for (int n = 1; n < argc; ++n) {
+    options.viewers = IntOf(argv[n], "--viewers=", options.viewers, 1, 4000);
+    options.seconds = IntOf(argv[n], "--seconds=", options.seconds, 1, 60);
+    options.shards = IntOf(argv[n], "--shards=", options.shards, 1, 64);
+    options.every_frame = IntOf(argv[n], "--every_frame=", options.every_frame, 0, 1) != 0;
+    options.query = IntOf(argv[n], "--query=", options.query, 0, 1) != 0;
+  }
+  return options;
+}
+
+void ServeSea(int shards, int port_pipe, int stop_pipe) {
+  SessionSpec spec;
+  spec.name = "bench";
+  spec.recipe.cascades = sea::DefaultCascades();
+  sea::WeatherEntry entry;
+  entry.sea.systems = {sea::JonswapSystem{}};
+  spec.recipe.timeline = {entry};
+  spec.stream_rate_hz = kStreamRateHz;
+  spec.probes_m = DefaultProbes();
+  server::Registry registry;
+  ONESEA_CHECK(registry.Create(spec).ok());
+  std::unique_ptr<server::RpcServer> rpc;
+  // Ports that the system gives to clients are taken by the viewers.
+  for (int port = 21'200; port < 21'300 && rpc == nullptr; ++port) {
+    server::RpcServerOptions options;
+    options.listen_address = absl::StrCat("127.0.0.1:", port);
+    options.watch_shards = shards;
+    auto started = server::RpcServer::Start(options, registry);
+    if (started.ok()) rpc = *std::move(started);
+  }
+  const int port = rpc == nullptr ? 0 : rpc->port();
+  if (write(port_pipe, &port, sizeof(port)) != sizeof(port) || port == 0) return;
+  pollfd stop{stop_pipe, POLLIN, 0};
+  poll(&stop, 1, -1);
+  rpc->Shutdown(0.5);
+}
+
+void Print(const char* name, const CrowdResult& result, double cpu_s, int viewers, double span_s) {
+  const double frames = static_cast<double>(std::max<std::int64_t>(1, result.frames));
+  std::printf(
+      "%-6s viewers %4d  frames/s %8.0f  server %5.1f %% of a core  %6.2f us/frame  "
+      "late p50 %6.2f p99 %6.2f p99.9 %6.2f ms  %6.0f bytes/s/viewer  skipped %ld  lost %d\n",
+      name, viewers, frames / span_s, 100.0 * cpu_s / span_s, 1e6 * cpu_s / frames,
+      result.lateness_ms.p50, result.lateness_ms.p99, result.lateness_ms.p999,
+      static_cast<double>(result.bytes) / span_s / viewers, static_cast<long>(result.gaps),
+      result.lost);
+}
+
+// Blocking queries on one stream until `stop`; microseconds each.
+std::vector<double> Query(int port, const std::atomic<bool>& stop) {
+  client::RemoteServer remote(client::ConnectTo(absl::StrCat("127.0.0.1:", port)));
+  const std::unique_ptr<client::QueryStream> stream = remote.StreamQueries();
+  wire::QueryRequest request;
+  request.session = "bench";
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> place(-1000.0, 1000.0);
+  for (int n = 0; n < kQueryPoints; ++n) request.points_m.push_back({place(random), place(random)});
+  std::vector<double> latencies_us;
+  while (!stop) {
+    ++request.id;
+    const std::int64_t before_ns = SystemClock().MonotonicNs();
+    if (!stream->Send(request).ok()) break;
+    const absl::StatusOr<wire::QueryAnswer> answer = stream->Receive();
+    if (!answer.ok() || !answer->status.ok()) break;
+    latencies_us.push_back(static_cast<double>(SystemClock().MonotonicNs() - before_ns) * 1e-3);
+    // As a simulator asks: a few hundred times a second, not as fast as it can.
+    SystemClock().SleepUntil(before_ns + 4'000'000);
+  }
+  return latencies_us;
+}
+
+void PrintQueries(const char* when, std::vector<double> latencies_us) {
+  const std::size_t count = latencies_us.size();
+  const Spread spread = SpreadOf(std::move(latencies_us));
+  std::printf("query  %d points, %s: p50 %.0f p99 %.0f p99.9 %.0f us over %zu answers\n",
+              kQueryPoints, when, spread.p50, spread.p99, spread.p999, count);
+}
+
+// Runs `watch` for the span with queries beside it.
+template <typename Viewer>
+CrowdResult WatchAndQuery(std::vector<Viewer>& viewers, std::int64_t span_ns, int port, bool query,
+                          const char* when) {
+  std::atomic<bool> stop{false};
+  std::vector<double> latencies_us;
+  std::thread asker;
+  if (query) asker = std::thread([&] { latencies_us = Query(port, stop); });
+  const CrowdResult result = Watch(viewers, span_ns);
+  stop = true;
+  if (query) {
+    asker.join();
+    PrintQueries(when, std::move(latencies_us));
+  }
+  return result;
+}
+
+// Microseconds of server CPU per frame.
+double RunSea(Child& server, const Options& options, std::int64_t* frame_bytes) {
+  const int port = server.port();
+  ONESEA_CHECK(port > 0) << "no free port";
+  const auto span_ns = static_cast<std::int64_t>(options.seconds) * 1'000'000'000;
+  std::vector<LightViewer> viewers;
+  if (options.query) WatchAndQuery(viewers, 2'000'000'000, port, true, "nobody watches");
+  viewers.reserve(options.viewers);
+  for (int n = 0; n < options.viewers; ++n) {
+    viewers.emplace_back();
+    ONESEA_CHECK(viewers.back().Open(port, "bench", options.every_frame)) << "viewer " << n;
+  }
+  Watch(viewers, 1'000'000'000);  // warm
+  const double cpu_before_s = server.CpuSeconds();
+  const CrowdResult alone = Watch(viewers, span_ns);
+  const double cpu_s = server.CpuSeconds() - cpu_before_s;
+  Print("onesea", alone, cpu_s, options.viewers, options.seconds);
+  for (const LightViewer& viewer : viewers) {
+    if (!viewer.trouble().empty()) std::printf("  trouble: %s\n", viewer.trouble().c_str());
+  }
+  if (options.query) {
+    WatchAndQuery(viewers, span_ns, port, true,
+                  absl::StrCat("while streaming to ", options.viewers).c_str());
+  }
+  const auto frames = static_cast<double>(std::max<std::int64_t>(1, alone.frames));
+  *frame_bytes = static_cast<std::int64_t>(static_cast<double>(alone.bytes) / frames);
+  return 1e6 * cpu_s / frames;
+}
+
+double RunPlain(Child& server, const Options& options, int frame_bytes) {
+  const int port = server.port();
+  ONESEA_CHECK(port > 0) << "no free port";
+  std::vector<PlainViewer> viewers;
+  viewers.reserve(options.viewers);
+  for (int n = 0; n < options.viewers; ++n) {
+    viewers.emplace_back(frame_bytes);
+    ONESEA_CHECK(viewers.back().Open(port)) << "plain viewer " << n;
+  }
+  Watch(viewers, 1'000'000'000);
+  const double cpu_before_s = server.CpuSeconds();
+  const auto span_ns = static_cast<std::int64_t>(options.seconds) * 1'000'000'000;
+  const CrowdResult result = Watch(viewers, span_ns);
+  const double cpu_s = server.CpuSeconds() - cpu_before_s;
+  Print("tcp", result, cpu_s, options.viewers, options.seconds);
+  return 1e6 * cpu_s / static_cast<double>(std::max<std::int64_t>(1, result.frames));
+}
+
+void Run(const Options& options) {
+  rlimit files{};
+  getrlimit(RLIMIT_NOFILE, &files);
+  files.rlim_cur = files.rlim_max;
+  setrlimit(RLIMIT_NOFILE, &files);
+  // Both are forked before the first thread; the idle one costs nothing.
+  constexpr int kPlainFrameBytes =
+      100;  // about what a stamp takes on the wire, acknowledgements included
+  Child plain([&](int port_pipe, int stop_pipe) {
+    ServePlainFanout(kPlainFrameBytes, options.every_frame ? kStreamRateHz : 1, port_pipe,
+                     stop_pipe);
+  });
+  Child sea([&](int port_pipe, int stop_pipe) { ServeSea(options.shards, port_pipe, stop_pipe); });
+  std::int64_t frame_bytes = 0;
+  const double sea_us = RunSea(sea, options, &frame_bytes);
+  const double plain_us = RunPlain(plain, options, kPlainFrameBytes);
+  std::printf(
+      "ratio  onesea / plain sockets: %.2f in server CPU per frame (%ld and %d bytes a frame)\n",
+      plain_us > 0.0 ? sea_us / plain_us : 0.0, static_cast<long>(frame_bytes), kPlainFrameBytes);
+}
+
+}  // namespace
+}  // namespace onesea::bench
+
+int main(int argc, char** argv) {
+  onesea::bench::Run(onesea::bench::Parse(argc, argv));
+  return 0;
+}
