@@ -46,15 +46,18 @@ std::string HttpFrame(std::uint8_t type, std::uint8_t flags, std::uint32_t strea
 
 // HPACK (RFC 7541): a literal header field that is not indexed; all strings here are below 127
 // bytes.
-std::string Text(const std::string& text) { return static_cast<char>(text.size()) + text; }
+std::string Text(const std::string& text) {
+  std::string out(1, static_cast<char>(text.size()));
+  out.append(text);
+  return out;
+}
 
 std::string RequestHeaders() {
-  std::string block = "\x83\x86";                               // :method POST, :scheme http
-  block += "\x04" + Text("/onesea.v1.OneSea/Watch");            // :path
-  block += "\x01" + Text("localhost");                          // :authority
-  block += std::string("\x0f\x10") + Text("application/grpc");  // content-type
-  block += std::string(1, '\0') + Text("te") + Text("trailers");
-  return block;
+  return absl::StrCat("\x83\x86",                               // :method POST, :scheme http
+                      "\x04", Text("/onesea.v1.OneSea/Watch"),  // :path
+                      "\x01", Text("localhost"),                // :authority
+                      "\x0f\x10", Text("application/grpc"),     // content-type
+                      std::string(1, '\0'), Text("te"), Text("trailers"));
 }
 
 std::string Setting(std::uint16_t id, std::uint32_t value) {
