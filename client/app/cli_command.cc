@@ -114,7 +114,11 @@ absl::Status RunCommand(const CliCommand& command, const Arguments& arguments,
                            .session = arguments.Get("session").value_or(""),
                            .json = arguments.Has("json"),
                            .out = out};
-  return command.run(context, arguments);
+  const absl::Status status = command.run(context, arguments);
+  if (!absl::IsUnavailable(status)) return status;
+  return absl::UnavailableError(absl::StrFormat(
+      "no server answers at %s; start one with onesea-server, or name another with --server",
+      context.server));
 }
 
 }  // namespace
@@ -123,6 +127,10 @@ absl::Status UsageError(absl::string_view message) {
   absl::Status status = absl::InvalidArgumentError(message);
   status.SetPayload(kUsageMark, absl::Cord());
   return status;
+}
+
+absl::Status FileError(const absl::Status& status) {
+  return absl::IsUnavailable(status) ? absl::UnknownError(status.message()) : status;
 }
 
 int RunCli(std::span<const CliCommand> commands, std::span<const std::string> words,

@@ -43,6 +43,9 @@ inline constexpr int kExitOtherSea = 4;  ///< this program's components are not 
 int RunCli(std::span<const CliCommand> commands, std::span<const std::string> words,
            absl::string_view server_default, std::ostream& out, std::ostream& err);
 
+/// Errors of files, kept apart from Unavailable, which means here that no server answers.
+absl::Status FileError(const absl::Status& status);
+
 /// Marks an error as the command line's own (exit code kExitUsage); the others come from the server or from files.
 absl::Status UsageError(absl::string_view message);
 

@@ -4,7 +4,24 @@
 #include <grpcpp/security/credentials.h>
 #include <grpcpp/support/channel_arguments.h>
 
+#include "absl/strings/numbers.h"
+#include "absl/strings/str_format.h"
+
 namespace onesea::client {
+
+absl::Status ValidateAddress(absl::string_view address) {
+  const std::size_t colon = address.rfind(':');
+  const absl::string_view host = address.substr(0, colon);
+  const bool is_ipv6 = host.size() > 2 && host.front() == '[' && host.back() == ']';
+  const bool is_name = !host.empty() && host.find_first_of(":/[] \t\n") == host.npos;
+  int port = 0;
+  if (colon != address.npos && (is_ipv6 || is_name) &&
+      absl::SimpleAtoi(address.substr(colon + 1), &port) && port >= 1 && port <= 65535) {
+    return absl::OkStatus();
+  }
+  return absl::InvalidArgumentError(
+      absl::StrFormat("address is '%s', it must be HOST:PORT with a port in [1, 65535]", address));
+}
 
 ChannelFactory ConnectTo(std::string address) {
   return [address = std::move(address)] {

@@ -9,6 +9,37 @@
 #include "client/net/watch_attempt.h"
 
 namespace onesea::client {
+namespace {
+
+// How long a server that said farewell may answer "no such session" before that is the truth: one that goes down, or
+// comes up again and opens its sessions, needs less.
+constexpr std::int64_t kGoneAfterNs = 3'000'000'000;
+
+// "No such session" is final for a newcomer. For one that was live it may be a server that restarts; after a farewell
+// it is so once it has been the only answer for a while.
+class NotFoundPatience {
+ public:
+  bool After(const absl::Status& status, const WatchAttempt& attempt, std::int64_t now_ns) {
+    if (attempt.was_live()) {
+      ever_live_ = true;
+      said_farewell_ = attempt.said_farewell();
+    }
+    if (!absl::IsNotFound(status)) {
+      not_found_since_ns_ = -1;
+      if (!attempt.was_live()) said_farewell_ = false;  // that server is away
+      return true;
+    }
+    if (not_found_since_ns_ < 0) not_found_since_ns_ = now_ns;
+    return ever_live_ && !(said_farewell_ && now_ns - not_found_since_ns_ >= kGoneAfterNs);
+  }
+
+ private:
+  bool ever_live_ = false;
+  bool said_farewell_ = false;
+  std::int64_t not_found_since_ns_ = -1;
+};
+
+}  // namespace
 
 SessionClient::SessionClient(ChannelFactory connect, SessionClientOptions options,
                              SessionListener& listener, const Clock& clock)
@@ -38,7 +69,7 @@ void SessionClient::Run() {
   // Different for every process and client, so that a crowd does not come back in step.
   Backoff backoff(options_.backoff, static_cast<std::uint64_t>(clock_.MonotonicNs()) ^
                                         reinterpret_cast<std::uintptr_t>(this));
-  bool retry_not_found = false;
+  NotFoundPatience patience;
   for (;;) {
     Tell({.state = LinkState::kConnecting, .status = {}, .retry_in_ns = 0});
     WatchAttempt attempt(*this);
@@ -53,11 +84,9 @@ void SessionClient::Run() {
       attempt_ = nullptr;
       if (stopping_) break;
     }
-    if (attempt.was_live()) {
-      backoff.Reset();
-      retry_not_found = true;  // a restarted server may need a moment to open its sessions
-    }
-    if (!WorthAnotherTry(status, retry_not_found)) {
+    if (attempt.was_live()) backoff.Reset();
+    const bool patient = patience.After(status, attempt, clock_.MonotonicNs());
+    if (!WorthAnotherTry(status, patient)) {
       return Tell({.state = LinkState::kFailed, .status = status, .retry_in_ns = 0});
     }
     const std::int64_t wait_ns = backoff.NextNs();

@@ -112,7 +112,6 @@ class SessionClient {
   bool stopping_ ABSL_GUARDED_BY(mutex_) = false;
   WatchAttempt* attempt_ ABSL_GUARDED_BY(mutex_) = nullptr;  // to cancel it
   SeaClock sea_clock_ ABSL_GUARDED_BY(mutex_);
-  std::int64_t epoch_utc_ns_ ABSL_GUARDED_BY(mutex_) = 0;  // tells one life of a session from another
   // Error bound of the offset in use: at a local time, and growing from there.
   std::int64_t bound_ns_ ABSL_GUARDED_BY(mutex_) = 0;
   std::int64_t bound_at_ns_ ABSL_GUARDED_BY(mutex_) = 0;

@@ -22,6 +22,9 @@ constexpr int kFirstExchanges = 6;
 constexpr std::int64_t kExchangePeriodNs = 4'000'000'000;
 constexpr std::int64_t kExchangeRetryNs = 500'000'000;
 constexpr std::int64_t kExchangeTimeoutMs = 2'000;
+// A connection whose sea is so far behind the old line shows another life of the session, or one that stood still
+// meanwhile: its time begins at once. An epoch in the session's file hides the difference from everything else.
+constexpr double kOtherLifeS = 0.05;
 // Beyond this no clock is honest, and sums of two stay inside 64 bits.
 constexpr std::int64_t kMonotonicMaxNs = std::int64_t{1} << 61;
 
@@ -136,10 +139,7 @@ absl::Status WatchAttempt::Accept(const wire::Frame& frame) {
   }
   const bool gap = last_sequence_ >= 0 && frame.sequence != last_sequence_ + 1;
   last_sequence_ = frame.sequence;
-  if (frame.welcome.has_value()) {
-    tick_rate_hz_ = frame.welcome->recipe.tick_rate_hz;
-    epoch_utc_ns_ = frame.welcome->session.epoch_utc_ns;
-  }
+  if (frame.welcome.has_value()) tick_rate_hz_ = frame.welcome->recipe.tick_rate_hz;
   if (frame.stamp.has_value()) {
     ONESEA_RETURN_IF_ERROR(
         CheckMonotonic("stamp.server_monotonic_ns", frame.stamp->server_monotonic_ns));
@@ -215,9 +215,11 @@ void WatchAttempt::OnExchanged(std::int64_t now_ns) {
 void WatchAttempt::UseClock(std::int64_t now_ns) {
   if (!stamp_.has_value() || !sync_.synchronised()) return;
   absl::MutexLock lock(&client_.mutex_);
-  if (client_.epoch_utc_ns_ != epoch_utc_ns_) {
-    client_.epoch_utc_ns_ = epoch_utc_ns_;
-    client_.sea_clock_ = SeaClock();
+  if (!clock_in_use_ && client_.sea_clock_.valid()) {
+    SeaClock line;
+    line.OnStamp(*stamp_, tick_rate_hz_, sync_.offset_ns());
+    const SimTime behind = client_.sea_clock_.Exact(now_ns) - line.Exact(now_ns);
+    if (behind.Seconds() > kOtherLifeS) client_.sea_clock_ = SeaClock();
   }
   // At the first join any clock is better than none; after that the old one serves until the new
   // one is as good.

@@ -29,6 +29,7 @@ class WatchAttempt {
   /// Any thread: ends Run() soon.
   void Cancel() { context_.TryCancel(); }
   bool was_live() const { return live_; }
+  bool said_farewell() const { return !farewell_.empty(); }
 
  private:
   enum class Op : std::intptr_t { kStarted = 1, kRead, kWritten, kFinished, kExchanged };
@@ -67,7 +68,6 @@ class WatchAttempt {
   std::int64_t last_news_ns_ = 0;
 
   int tick_rate_hz_ = 60;
-  std::int64_t epoch_utc_ns_ = 0;
   std::optional<wire::Stamp> stamp_;  // newest
   std::unique_ptr<v1::OneSea::Stub> stub_;
   ClockSync sync_;

@@ -100,7 +100,9 @@ TEST(RunCli, ErrorsAreOneLineWithTheirExitCode) {
   const Outcome refused = RunWords({"refuse"});
   EXPECT_EQ(refused.code, kExitRefused);
   EXPECT_EQ(refused.err, "onesea: first line second line\n");
-  EXPECT_EQ(RunWords({"refuse", "--session", "gone"}).code, kExitNoServer);
+  const Outcome alone = RunWords({"refuse", "--session", "gone"});
+  EXPECT_EQ(alone.code, kExitNoServer);
+  EXPECT_THAT(alone.err, HasSubstr("no server answers at default:1; start one with onesea-server"));
 }
 
 }  // namespace

@@ -15,7 +15,8 @@ int main(int argc, char** argv) {
     return 1;
   }
   for (int n = 0; n < 10; ++n) {
-    std::printf("t = %.3f s: the buoy floats at %+.3f m\n", (*sea)->Now(), (*sea)->HeightAt(12.0, -7.5));
+    std::printf("t = %.3f s: the buoy floats at %+.3f m\n", (*sea)->Now(),
+                (*sea)->HeightAt(12.0, -7.5));
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }
   return 0;

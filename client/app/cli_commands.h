@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "client/app/cli_command.h"
+
+/// Every command of `onesea`, one function each; cli_main.cc makes the table.
+namespace onesea::app {
+
+CliCommand SessionsCommand();
+CliCommand CreateCommand();
+CliCommand DeleteCommand();
+CliCommand QueryCommand();
+CliCommand WatchCommand();
+CliCommand WeatherCommand();
+CliCommand HoldCommand();
+CliCommand ResumeCommand();
+CliCommand StepCommand();
+CliCommand SpeedCommand();
+CliCommand HashCommand();
+CliCommand SpectrumCommand();
+
+}  // namespace onesea::app
