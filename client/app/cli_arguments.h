@@ -11,8 +11,8 @@
 #include "absl/strings/string_view.h"
 #include "common/base/vec.h"
 
-/// Words of a command line -> options and operands. Subcommands are why this is not a flags library: each has its own
-/// options, and an option may be given several times.
+/// Words of a command line -> options and operands. Subcommands are why this is not a flags
+/// library: each has its own options, and an option may be given several times.
 namespace onesea::app {
 
 struct OptionSpec {
@@ -37,12 +37,13 @@ class Arguments {
   std::vector<std::string> operands_;
 };
 
-/// `--name value`, `--name=value`, `--switch`, `-h` for --help; after `--` everything is an operand.
-/// A value may begin with a dash (--at -3,4). InvalidArgument in one line naming the word.
+/// `--name value`, `--name=value`, `--switch`, `-h` for --help; after `--` everything is an
+/// operand. A value may begin with a dash (--at -3,4). InvalidArgument in one line naming the word.
 absl::StatusOr<Arguments> ParseArguments(std::span<const OptionSpec> specs,
                                          std::span<const std::string> words);
 
-/// The numbers of people. `what` names the word in errors ("--time"); NaN and infinities are refused.
+/// The numbers of people. `what` names the word in errors ("--time"); NaN and infinities are
+/// refused.
 absl::StatusOr<double> ParseNumber(absl::string_view what, absl::string_view text, double min,
                                    double max);
 absl::StatusOr<std::int64_t> ParseInteger(absl::string_view what, absl::string_view text,

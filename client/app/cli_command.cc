@@ -62,8 +62,8 @@ void PrintCommandHelp(const CliCommand& command, std::ostream& out) {
   for (const absl::string_view example : command.examples) out << "  " << example << '\n';
 }
 
-// Common options may stand before the command; its place is the first word that is neither an option nor the value of
-// one.
+// Common options may stand before the command; its place is the first word that is neither an
+// option nor the value of one.
 std::size_t FindCommand(std::span<const std::string> words) {
   std::size_t n = 0;
   while (n < words.size() && absl::StartsWith(words[n], "-")) {

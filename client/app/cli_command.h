@@ -38,15 +38,16 @@ inline constexpr int kExitUsage = 2;     ///< the command line is wrong
 inline constexpr int kExitNoServer = 3;  ///< nobody answers
 inline constexpr int kExitOtherSea = 4;  ///< this program's components are not the server's
 
-/// Runs one command line (without the program's name). Answers go to `out`; an error is one line on `err`.
-/// `server_default`: where to look for a server when --server is not given.
+/// Runs one command line (without the program's name). Answers go to `out`; an error is one line on
+/// `err`. `server_default`: where to look for a server when --server is not given.
 int RunCli(std::span<const CliCommand> commands, std::span<const std::string> words,
            absl::string_view server_default, std::ostream& out, std::ostream& err);
 
 /// Errors of files, kept apart from Unavailable, which means here that no server answers.
 absl::Status FileError(const absl::Status& status);
 
-/// Marks an error as the command line's own (exit code kExitUsage); the others come from the server or from files.
+/// Marks an error as the command line's own (exit code kExitUsage); the others come from the server
+/// or from files.
 absl::Status UsageError(absl::string_view message);
 
 }  // namespace onesea::app

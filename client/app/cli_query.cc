@@ -1,4 +1,5 @@
-// onesea query: the sea at places and a time, as the server answers and as this process computes it.
+// onesea query: the sea at places and a time, as the server answers and as this process computes
+// it.
 
 #include <algorithm>
 #include <cmath>

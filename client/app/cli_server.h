@@ -18,7 +18,8 @@ struct ChosenSession {
   SessionInfo info;
 };
 
-/// The session that --session names, or the server's only one. NotFound with the names that there are; Unavailable.
+/// The session that --session names, or the server's only one. NotFound with the names that there
+/// are; Unavailable.
 absl::StatusOr<ChosenSession> ChooseSession(const CliContext& context);
 
 /// Joins as a game would.

@@ -1,4 +1,5 @@
-// onesea watch: joins a session as a game would and shows each second how well this process follows it.
+// onesea watch: joins a session as a game would and shows each second how well this process follows
+// it.
 
 #include <atomic>
 #include <csignal>

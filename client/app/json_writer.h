@@ -8,14 +8,16 @@
 
 namespace onesea::app {
 
-/// Writes one JSON value, for the --json answers of the command. Keys in the order of the calls, one line.
+/// Writes one JSON value, for the --json answers of the command. Keys in the order of the calls,
+/// one line.
 ///
 ///   JsonWriter json;
 ///   json.BeginObject().Key("hs_m").Value(4.71).Key("points").BeginArray().Value(1).EndArray().EndObject();
 ///   json.text()  // {"hs_m":4.71,"points":[1]}
 ///
-/// Numbers are the shortest text that reads back as the same double; NaN and infinities, which JSON lacks, are null.
-/// 64-bit hashes go in as text, since most readers of JSON hold numbers as doubles.
+/// Numbers are the shortest text that reads back as the same double; NaN and infinities, which JSON
+/// lacks, are null. 64-bit hashes go in as text, since most readers of JSON hold numbers as
+/// doubles.
 class JsonWriter {
  public:
   JsonWriter& BeginObject() { return Open('{'); }

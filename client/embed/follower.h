@@ -14,10 +14,11 @@
 
 namespace onesea::client {
 
-/// Turns the frames of a session into a LocalSea, on a thread of its own: building components takes tens of
-/// milliseconds, and the network thread, which measures clocks, must not wait for that.
+/// Turns the frames of a session into a LocalSea, on a thread of its own: building components takes
+/// tens of milliseconds, and the network thread, which measures clocks, must not wait for that.
 ///
-/// Welcomes and probe heights are worked off in their order; when the work falls behind, the newest of each is enough.
+/// Welcomes and probe heights are worked off in their order; when the work falls behind, the newest
+/// of each is enough.
 class Follower {
  public:
   struct Events {

@@ -68,7 +68,8 @@ JoinedSea::JoinedSea(const std::string& address, const std::string& session,
   drift_sink_ = client_.get();
 }
 
-// First no more frames, then no more work on them, which may still report to the client; then the client.
+// First no more frames, then no more work on them, which may still report to the client; then the
+// client.
 JoinedSea::~JoinedSea() {
   client_->Stop();
   follower_.reset();
@@ -76,7 +77,8 @@ JoinedSea::~JoinedSea() {
 
 absl::Status JoinedSea::WaitUntilReady(double timeout_s) {
   const absl::Time deadline = absl::Now() + absl::Seconds(timeout_s);
-  // Short looks instead of a condition: three parties (link, waves, clock) must be ready, each under its own lock.
+  // Short looks instead of a condition: three parties (link, waves, clock) must be ready, each
+  // under its own lock.
   while (absl::Now() < deadline) {
     ONESEA_RETURN_IF_ERROR(status());
     {

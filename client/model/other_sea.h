@@ -5,7 +5,8 @@
 
 namespace onesea::client {
 
-/// FailedPrecondition of the one kind that no retry mends: this process would build another sea than the server.
+/// FailedPrecondition of the one kind that no retry mends: this process would build another sea
+/// than the server.
 absl::Status OtherSeaError(absl::string_view message);
 
 /// Whether `status` was made by OtherSeaError().

@@ -11,12 +11,12 @@
 namespace onesea::client {
 namespace {
 
-// How long a server that said farewell may answer "no such session" before that is the truth: one that goes down, or
-// comes up again and opens its sessions, needs less.
+// How long a server that said farewell may answer "no such session" before that is the truth: one
+// that goes down, or comes up again and opens its sessions, needs less.
 constexpr std::int64_t kGoneAfterNs = 3'000'000'000;
 
-// "No such session" is final for a newcomer. For one that was live it may be a server that restarts; after a farewell
-// it is so once it has been the only answer for a while.
+// "No such session" is final for a newcomer. For one that was live it may be a server that
+// restarts; after a farewell it is so once it has been the only answer for a while.
 class NotFoundPatience {
  public:
   bool After(const absl::Status& status, const WatchAttempt& attempt, std::int64_t now_ns) {

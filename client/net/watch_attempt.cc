@@ -22,8 +22,9 @@ constexpr int kFirstExchanges = 6;
 constexpr std::int64_t kExchangePeriodNs = 4'000'000'000;
 constexpr std::int64_t kExchangeRetryNs = 500'000'000;
 constexpr std::int64_t kExchangeTimeoutMs = 2'000;
-// A connection whose sea is so far behind the old line shows another life of the session, or one that stood still
-// meanwhile: its time begins at once. An epoch in the session's file hides the difference from everything else.
+// A connection whose sea is so far behind the old line shows another life of the session, or one
+// that stood still meanwhile: its time begins at once. An epoch in the session's file hides the
+// difference from everything else.
 constexpr double kOtherLifeS = 0.05;
 // Beyond this no clock is honest, and sums of two stay inside 64 bits.
 constexpr std::int64_t kMonotonicMaxNs = std::int64_t{1} << 61;

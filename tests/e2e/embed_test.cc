@@ -34,8 +34,8 @@ bool Eventually(Condition condition, milliseconds limit = milliseconds(20'000)) 
   return condition();
 }
 
-// Both processes read the same monotonic clock, so on one machine a stamp gives the server's sea time exactly; the
-// client under test must find it through SyncClock alone.
+// Both processes read the same monotonic clock, so on one machine a stamp gives the server's sea
+// time exactly; the client under test must find it through SyncClock alone.
 class TrueTime {
  public:
   explicit TrueTime(ServerProcess& server) {
@@ -93,7 +93,8 @@ TEST(Embed, NowIsTheServersNow) {
     const double after_s = truth.Now();
     EXPECT_GE(now_s, previous_s);
     previous_s = now_s;
-    // The library says how wrong it may be; on a loopback that is far below the 2.5 ms that 5 mm of water stand for.
+    // The library says how wrong it may be; on a loopback that is far below the 2.5 ms that 5 mm of
+    // water stand for.
     const double allowed_s = std::max(sea->drift().clock_error_s, 0.0) + 0.0025;
     EXPECT_GT(now_s, before_s - allowed_s);
     EXPECT_LT(now_s, after_s + allowed_s);
@@ -168,8 +169,8 @@ TEST(Embed, TwoClientsSeeTheWeatherTurnAlike) {
   EXPECT_EQ(one->drift().worst_m, 0.0);
 }
 
-// The server is killed without a word and started again; the client finds it by itself, has the same components, and
-// in the first second shows heights within 5 mm of the truth at that moment.
+// The server is killed without a word and started again; the client finds it by itself, has the
+// same components, and in the first second shows heights within 5 mm of the truth at that moment.
 TEST(Embed, FindsARestartedServerAgain) {
   ServerProcess server(kStorm);
   const auto sea = JoinOrDie(server);

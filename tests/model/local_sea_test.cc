@@ -34,8 +34,9 @@ std::vector<float> HeightsAt(const sea::Recipe& recipe, const std::vector<Vec2d>
   return heights;
 }
 
-// Airy: eta = a cos(k·x - ωt + φ), ω² = gk in deep water (surface tension adds 3e-8 of it for this wave). 1e-4 of
-// the amplitude leaves room for float trigonometry; a wrong sign of t or of the direction errs by metres.
+// Airy: eta = a cos(k·x - ωt + φ), ω² = gk in deep water (surface tension adds 3e-8 of it for this
+// wave). 1e-4 of the amplitude leaves room for float trigonometry; a wrong sign of t or of the
+// direction errs by metres.
 TEST(LocalSea, OneRegularWaveIsACosine) {
   const auto sea = MakeSea(OneWaveRecipe());
   const double omega = 2.0 * M_PI / 8.0;
@@ -83,7 +84,8 @@ TEST(LocalSea, RefusedWelcomeLeavesTheSeaAsItWas) {
   EXPECT_EQ(sea->session().name, "test");
 }
 
-// Nothing moves before the change begins, height and velocity go on through its beginning, and the end is the new sea.
+// Nothing moves before the change begins, height and velocity go on through its beginning, and the
+// end is the new sea.
 TEST(LocalSea, WeatherChangesWithoutAJump) {
   sea::Recipe changed = ChoppyRecipe();
   sea::WeatherEntry entry{.start_tick = 600, .span_ticks = 1200, .sea = changed.timeline[0].sea};
@@ -101,7 +103,8 @@ TEST(LocalSea, WeatherChangesWithoutAJump) {
   ASSERT_TRUE(sea->Follow(welcome).ok());
   EXPECT_EQ(height(100), long_before);
   EXPECT_EQ(height(600), at_start);
-  // Vertical acceleration of the sea stays below 1 g, so second differences stay below g dt² = 2.7 mm.
+  // Vertical acceleration of the sea stays below 1 g, so second differences stay below g dt² = 2.7
+  // mm.
   for (Tick tick = 590; tick < 640; ++tick) {
     EXPECT_LT(std::abs(height(tick + 1) - 2 * height(tick) + height(tick - 1)), 9.81 / 3600);
   }
@@ -146,8 +149,9 @@ TEST(LocalSea, BadProbesAreRefusedOrReportedNeverHidden) {
   EXPECT_EQ(sea->drift().worst_m, HUGE_VAL);
 }
 
-// Linear interpolation errs by at most acceleration * dt²/8; below 1 g that is 0.34 mm. The choppy sea folds here and
-// there, where the top sheet changes at once, so the bound is asked of 99 % of places and the rest reported.
+// Linear interpolation errs by at most acceleration * dt²/8; below 1 g that is 0.34 mm. The choppy
+// sea folds here and there, where the top sheet changes at once, so the bound is asked of 99 % of
+// places and the rest reported.
 TEST(LocalSea, HeightNearIsWithinItsBound) {
   const auto sea = MakeSea(ChoppyRecipe());
   std::mt19937 random(5);
@@ -177,7 +181,8 @@ TEST(LocalSea, HeightNearIsExactOnTheLatticeAndBeforeTickZero) {
   EXPECT_NEAR(sea->HeightNear({3, 4}, between), sea->HeightAt({3, 4}, between), 1e-4);
 }
 
-// Run under the thread sanitizer too: askers never wait for a weather change to be built and always see one timeline.
+// Run under the thread sanitizer too: askers never wait for a weather change to be built and always
+// see one timeline.
 TEST(LocalSea, AnswersWhileTheWeatherIsFollowed) {
   const sea::Recipe calm = ChoppyRecipe();
   sea::Recipe rough = ChoppyRecipe();

@@ -20,16 +20,17 @@
 ///
 /// CMake: find_package(onesea REQUIRED) and target_link_libraries(game PRIVATE onesea::client).
 ///
-/// World frame: x east, y north, z up [m]; z = 0 is the mean water level. Time is sea time: seconds since the
-/// session's tick 0. Everything is thread-safe.
+/// World frame: x east, y north, z up [m]; z = 0 is the mean water level. Time is sea time: seconds
+/// since the session's tick 0. Everything is thread-safe.
 namespace onesea {
 
 struct JoinOptions {
   std::string session = {};      ///< empty: the server's only session
   std::string client_name = {};  ///< for the server's logs
   double timeout_s = 10.0;       ///< of Join(), (0, 3600]; afterwards reconnection goes on for ever
-  /// Called with a line for people when the connection is lost or found again, the weather changes, or this process
-  /// can no longer follow. From a thread of the library: be quick, and do not destroy the sea there.
+  /// Called with a line for people when the connection is lost or found again, the weather changes,
+  /// or this process can no longer follow. From a thread of the library: be quick, and do not
+  /// destroy the sea there.
   std::function<void(const std::string& line)> on_event = {};
 };
 
@@ -82,44 +83,49 @@ class Sea {
  public:
   virtual ~Sea() = default;
 
-  /// The server's sea time now [s], from synchronised clocks; never goes back while the session goes on.
+  /// The server's sea time now [s], from synchronised clocks; never goes back while the session
+  /// goes on.
   virtual double Now() const = 0;
 
-  /// Height of the surface [m] now. NaN for a place that isn't finite or farther than 1e7 m, and after status() failed.
-  /// Cost: below 1 µs; once per 1/60 s of sea time also one synthesis (about 0.6 ms at the default resolution), between
-  /// which heights are interpolated linearly: 0.35 mm at an acceleration of 1 g.
+  /// Height of the surface [m] now. NaN for a place that isn't finite or farther than 1e7 m, and
+  /// after status() failed. Cost: below 1 µs; once per 1/60 s of sea time also one synthesis (about
+  /// 0.6 ms at the default resolution), between which heights are interpolated linearly: 0.35 mm at
+  /// an acceleration of 1 g.
   virtual double HeightAt(double x_m, double y_m) const = 0;
 
-  /// The same at sea time `time_s`, past or future, within 3.2e9 s of tick 0, not interpolated in time. A first call
-  /// for a time costs one synthesis; the last few times are kept.
+  /// The same at sea time `time_s`, past or future, within 3.2e9 s of tick 0, not interpolated in
+  /// time. A first call for a time costs one synthesis; the last few times are kept.
   virtual double HeightAt(double x_m, double y_m, double time_s) const = 0;
 
-  /// out[n] answers places[n] at `time_s`. InvalidArgument naming the place or time that is out of range, or if the
-  /// sizes differ; FailedPrecondition after status() failed.
+  /// out[n] answers places[n] at `time_s`. InvalidArgument naming the place or time that is out of
+  /// range, or if the sizes differ; FailedPrecondition after status() failed.
   virtual absl::Status Sample(std::span<const Place> places, double time_s, Detail detail,
                               std::span<Water> out) const = 0;
 
-  /// out[n] answers places[n], depth_m[n] below the mean water level, in [0, 12000]. The exact sum over all waves: about
-  /// 15 µs a place. Errors as in Sample().
+  /// out[n] answers places[n], depth_m[n] below the mean water level, in [0, 12000]. The exact sum
+  /// over all waves: about 15 µs a place. Errors as in Sample().
   virtual absl::Status SampleAtDepth(std::span<const Place> places, std::span<const double> depth_m,
                                      double time_s, std::span<Underwater> out) const = 0;
 
-  /// Bound [m] of the error of heights at `time_s` against the exact sum of waves, where the surface does not fold.
+  /// Bound [m] of the error of heights at `time_s` against the exact sum of waves, where the
+  /// surface does not fold.
   virtual double HeightErrorBound(double time_s) const = 0;
 
-  /// OK, or why this process can't show the session's sea any more: its components differ (FailedPrecondition), the
-  /// session was deleted (NotFound). A lost connection is not a failure: the sea goes on and reconnects.
+  /// OK, or why this process can't show the session's sea any more: its components differ
+  /// (FailedPrecondition), the session was deleted (NotFound). A lost connection is not a failure:
+  /// the sea goes on and reconnects.
   virtual absl::Status status() const = 0;
 
   virtual DriftReport drift() const = 0;
   virtual SessionReport session() const = 0;
 };
 
-/// Joins and waits for the first correct height: one round trip, building the components (about 40 ms per wave system)
-/// and, beside them, the exchange of clocks.
+/// Joins and waits for the first correct height: one round trip, building the components (about 40
+/// ms per wave system) and, beside them, the exchange of clocks.
 ///
-/// Unavailable: no server answers. NotFound: no such session. InvalidArgument: several sessions and no name, or an
-/// option out of range. FailedPrecondition: this process would build another sea; the message has both hashes.
+/// Unavailable: no server answers. NotFound: no such session. InvalidArgument: several sessions and
+/// no name, or an option out of range. FailedPrecondition: this process would build another sea;
+/// the message has both hashes.
 absl::StatusOr<std::unique_ptr<Sea>> Join(const std::string& address,
                                           const JoinOptions& options = {});
 
