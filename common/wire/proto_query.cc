@@ -79,10 +79,10 @@ absl::StatusOr<QueryRequest> FromProto(const v1::QueryPointsRequest& proto) {
   QueryRequest request;
   request.session = proto.session();
   request.id = proto.id();
-  request.points_m.resize(static_cast<std::size_t>(proto.x_m_size()));
-  for (int n = 0; n < proto.x_m_size(); ++n) {
-    request.points_m[static_cast<std::size_t>(n)] = {proto.x_m(n), proto.y_m(n)};
-  }
+  const double* x_m = proto.x_m().data();
+  const double* y_m = proto.y_m().data();
+  request.points_m.reserve(static_cast<std::size_t>(proto.x_m_size()));
+  for (int n = 0; n < proto.x_m_size(); ++n) request.points_m.push_back({x_m[n], y_m[n]});
   if (proto.when_case() == v1::QueryPointsRequest::kTick) request.tick = proto.tick();
   if (proto.when_case() == v1::QueryPointsRequest::kTimeS) request.time_s = proto.time_s();
   if (proto.detail() != v1::QueryPointsRequest::DETAIL_UNSPECIFIED) {

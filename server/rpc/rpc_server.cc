@@ -31,8 +31,11 @@ void SetKeepalive(grpc::ServerBuilder& builder) {
   builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
 }
 
-// gRPC's own log lines are for its developers; what an operator needs to know we say ourselves.
-void LogQuietly(gpr_log_func_args* args) { spdlog::debug("grpc: {}", args->message); }
+// gRPC's own log lines go where ours go; what is no error of its is for its developers.
+void ForwardLog(gpr_log_func_args* args) {
+  const bool error = args->severity == GPR_LOG_SEVERITY_ERROR;
+  spdlog::log(error ? spdlog::level::warn : spdlog::level::debug, "grpc: {}", args->message);
+}
 
 }  // namespace
 
@@ -62,7 +65,7 @@ void RpcServer::Impl::Shutdown(double grace_s) {
 absl::StatusOr<std::unique_ptr<RpcServer>> RpcServer::Start(const RpcServerOptions& options,
                                                             Registry& registry,
                                                             const Clock& clock) {
-  gpr_set_log_function(LogQuietly);
+  gpr_set_log_function(ForwardLog);
   auto impl = std::make_unique<Impl>(registry, clock, options.transform);
   grpc::EnableDefaultHealthCheckService(true);
   grpc::reflection::InitProtoReflectionServerBuilderPlugin();

@@ -31,10 +31,14 @@ void StreamQueriesReactor::OnReadDone(bool ok) {
       Enqueue(OrError(request.status(), request_.id()), false);
     }
   }
-  absl::MutexLock lock(&mutex_);
-  reading_ = false;
-  if (!ok) no_more_requests_ = true;
-  GoOn();
+  bool over = false;
+  {
+    absl::MutexLock lock(&mutex_);
+    reading_ = false;
+    if (!ok) no_more_requests_ = true;
+    over = GoOn();
+  }
+  FinishIf(over);
 }
 
 void StreamQueriesReactor::Take(wire::QueryRequest request) {
@@ -56,32 +60,44 @@ void StreamQueriesReactor::Take(wire::QueryRequest request) {
 void StreamQueriesReactor::Enqueue(const wire::QueryAnswer& answer, bool was_posted) {
   v1::QueryPointsResponse response;
   ToProto(answer, &response);
-  absl::MutexLock lock(&mutex_);
-  if (was_posted) --posted_;
-  if (!broken_) answers_.push_back(std::move(response));
-  GoOn();
+  bool over = false;
+  {
+    absl::MutexLock lock(&mutex_);
+    if (was_posted) --posted_;
+    if (!broken_) answers_.push_back(std::move(response));
+    over = GoOn();
+  }
+  FinishIf(over);
 }
 
 void StreamQueriesReactor::OnWriteDone(bool ok) {
-  absl::MutexLock lock(&mutex_);
-  writing_ = false;
-  answers_.pop_front();
-  if (!ok) {
-    broken_ = true;
-    answers_.clear();
+  bool over = false;
+  {
+    absl::MutexLock lock(&mutex_);
+    writing_ = false;
+    answers_.pop_front();
+    if (!ok) {
+      broken_ = true;
+      answers_.clear();
+    }
+    over = GoOn();
   }
-  GoOn();
+  FinishIf(over);
 }
 
 void StreamQueriesReactor::OnCancel() {
-  absl::MutexLock lock(&mutex_);
-  broken_ = true;
-  while (answers_.size() > (writing_ ? 1 : 0)) answers_.pop_back();
-  GoOn();
+  bool over = false;
+  {
+    absl::MutexLock lock(&mutex_);
+    broken_ = true;
+    while (answers_.size() > (writing_ ? 1 : 0)) answers_.pop_back();
+    over = GoOn();
+  }
+  FinishIf(over);
 }
 
-void StreamQueriesReactor::GoOn() {
-  if (finished_) return;
+bool StreamQueriesReactor::GoOn() {
+  if (finished_) return false;
   if (!writing_ && !answers_.empty()) {
     writing_ = true;
     StartWrite(&answers_.front());
@@ -91,10 +107,8 @@ void StreamQueriesReactor::GoOn() {
     StartRead(&request_);
   }
   const bool idle = !writing_ && !reading_ && posted_ == 0 && answers_.empty();
-  if (idle && (no_more_requests_ || broken_)) {
-    finished_ = true;
-    Finish(grpc::Status::OK);
-  }
+  finished_ = idle && (no_more_requests_ || broken_);
+  return finished_;
 }
 
 }  // namespace onesea::server

@@ -34,7 +34,12 @@ class StreamQueriesReactor final
  private:
   void Take(wire::QueryRequest request);
   void Enqueue(const wire::QueryAnswer& answer, bool was_posted);
-  void GoOn() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  // Starts what can be started. True: the call is over, and the caller is to Finish() it after giving
+  // the lock back, since the reactor may be deleted from then on.
+  [[nodiscard]] bool GoOn() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  void FinishIf(bool over) {
+    if (over) Finish(grpc::Status::OK);
+  }
 
   QueryDesk& desk_;
   Worker& worker_;
