@@ -1,0 +1,92 @@
+// Time of each pass of the renderer at the default preset, software rendering or not.
+//
+//   render_bench [FRAMES]      default 12
+//
+// Prints wall and process-CPU milliseconds, the median over frames; the first frame, which compiles
+// shaders, is left out. On a machine that others use, CPU is the steadier figure: two threads of
+// the software renderer share it.
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <vector>
+
+#include "client/render/gl_objects.h"
+#include "client/render/offscreen_context.h"
+#include "client/render/renderer.h"
+#include "common/base/clock.h"
+#include "tests/render/test_sea.h"
+
+namespace onesea::render {
+namespace {
+
+double Median(std::vector<double> values) {
+  std::nth_element(values.begin(), values.begin() + static_cast<long>(values.size() / 2), values.end());
+  return values[values.size() / 2];
+}
+
+void Measure(Renderer& renderer, RenderFrame& frame, TestSea& sea, int width, int height, int frames) {
+  ColorTarget target;
+  target.Resize(width, height, GL_RGBA8);
+  std::vector<std::vector<double>> wall, cpu;
+  std::vector<double> whole;
+  std::vector<std::string> names;
+  for (int n = 0; n <= frames; ++n) {
+    sea.FillFrame(5.0 + n / 30.0, frame);
+    renderer.MeasurePasses(true);
+    renderer.Draw(frame, width, height, target.framebuffer.id());
+    const std::vector<PassTime> passes = renderer.pass_times();
+    renderer.MeasurePasses(false);
+    const std::int64_t start_ns = SystemClock().MonotonicNs();
+    renderer.Draw(frame, width, height, target.framebuffer.id());
+    glFinish();
+    const double ms = 1e-6 * static_cast<double>(SystemClock().MonotonicNs() - start_ns);
+    if (n == 0) {
+      wall.resize(passes.size());
+      cpu.resize(passes.size());
+      for (const PassTime& pass : passes) names.push_back(pass.name);
+      continue;
+    }
+    for (std::size_t p = 0; p < passes.size(); ++p) {
+      wall[p].push_back(passes[p].wall_ms);
+      cpu[p].push_back(passes[p].cpu_ms);
+    }
+    whole.push_back(ms);
+  }
+  std::printf("%dx%d, %d samples, %s\n", width, height, frame.quality.samples, glGetString(GL_RENDERER));
+  double wall_sum = 0.0, cpu_sum = 0.0;
+  for (std::size_t p = 0; p < names.size(); ++p) {
+    std::printf("  %-10s wall %7.1f ms   cpu %7.1f ms\n", names[p].c_str(), Median(wall[p]), Median(cpu[p]));
+    wall_sum += Median(wall[p]);
+    cpu_sum += Median(cpu[p]);
+  }
+  std::printf("  %-10s wall %7.1f ms   cpu %7.1f ms\n", "sum", wall_sum, cpu_sum);
+  std::printf("  frame      wall %7.1f ms   (passes not separated)\n", Median(whole));
+}
+
+int Main(int frames) {
+  auto context = OffscreenContext::Create();
+  if (!context.ok()) {
+    std::fprintf(stderr, "%s\n", std::string(context.status().message()).c_str());
+    return 1;
+  }
+  auto renderer = Renderer::Create();
+  if (!renderer.ok()) {
+    std::fprintf(stderr, "%s\n", std::string(renderer.status().message()).c_str());
+    return 1;
+  }
+  TestSea sea(2.1, 7.5, 2.6);
+  RenderFrame frame;
+  frame.camera.position_m = {0.0, 0.0, 4.0};
+  frame.camera.pitch_rad = -0.05;
+  for (const auto& [width, height] : {std::pair{640, 360}, std::pair{1280, 720}}) {
+    Measure(**renderer, frame, sea, width, height, frames);
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace onesea::render
+
+int main(int argc, char** argv) { return onesea::render::Main(argc > 1 ? std::max(1, std::atoi(argv[1])) : 12); }
