@@ -29,7 +29,8 @@ glm::vec4 Pack(double x, double y, double z, double w) {
 glm::vec4 TileMap(Vec2d eye, double length_m, double rotation_rad, double texel_m) {
   const double c = std::cos(rotation_rad), s = std::sin(rotation_rad);
   return Pack(Fraction((c * eye.x + s * eye.y) / length_m),
-              Fraction((-s * eye.x + c * eye.y) / length_m), 1.0 / length_m, texel_m);
+              Fraction((-s * eye.x + c * eye.y) / length_m), 1.0 / length_m,
+              std::log2(texel_m));
 }
 
 // Share of the sea that is white [-]. Source: Monahan & O'Muircheartaigh 1980.

@@ -7,6 +7,7 @@
 
 #include "client/render/atmosphere.h"
 #include "client/render/frame_block.h"
+#include "client/render/passes/classify.h"
 #include "client/render/passes/ripples.h"
 #include "client/render/passes/sky.h"
 #include "client/render/passes/surface.h"
@@ -19,9 +20,10 @@
 namespace onesea::render {
 
 struct Renderer::Impl {
-  Impl(RipplePass r, SurfaceGridPass g, SkyPass s, SurfacePass w, ToneMapPass t)
+  Impl(RipplePass r, SurfaceGridPass g, ClassifyPass c, SkyPass s, SurfacePass w, ToneMapPass t)
       : ripples(std::move(r)),
         grid(std::move(g)),
+        classify(std::move(c)),
         sky(std::move(s)),
         surface(std::move(w)),
         tone(std::move(t)) {}
@@ -40,6 +42,7 @@ struct Renderer::Impl {
 
   RipplePass ripples;
   SurfaceGridPass grid;
+  ClassifyPass classify;
   SkyPass sky;
   SurfacePass surface;
   ToneMapPass tone;
@@ -90,11 +93,12 @@ void Renderer::Impl::UploadBlock(const FrameBlock& block) {
 absl::StatusOr<std::unique_ptr<Renderer>> Renderer::Create() {
   ONESEA_ASSIGN_OR_RETURN(RipplePass ripples, RipplePass::Create());
   ONESEA_ASSIGN_OR_RETURN(SurfaceGridPass grid, SurfaceGridPass::Create());
+  ONESEA_ASSIGN_OR_RETURN(ClassifyPass classify, ClassifyPass::Create());
   ONESEA_ASSIGN_OR_RETURN(SkyPass sky, SkyPass::Create());
   ONESEA_ASSIGN_OR_RETURN(SurfacePass surface, SurfacePass::Create());
   ONESEA_ASSIGN_OR_RETURN(ToneMapPass tone, ToneMapPass::Create());
   return std::unique_ptr<Renderer>(new Renderer(std::make_unique<Impl>(
-      std::move(ripples), std::move(grid), std::move(sky), std::move(surface), std::move(tone))));
+      std::move(ripples), std::move(grid), std::move(classify), std::move(sky), std::move(surface), std::move(tone))));
 }
 
 Renderer::Renderer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -136,10 +140,15 @@ void Renderer::Draw(const RenderFrame& frame, int width, int height, unsigned fr
                                width, height));
   r.scene.Resize(width, height, GL_RGBA16F);
   r.Pass("geometry", [&] { r.grid.Draw(grid, r.sea, width, height, frame.quality.samples); });
+  r.Pass("classify", [&] { r.classify.Draw(r.empty, r.scene, r.grid); });
   r.Pass("sky", [&] { r.sky.Draw(r.empty, r.scene); });
   r.Pass("surface", [&] {
-    r.surface.Draw(r.empty, r.scene, r.grid, r.sea, r.ripples, r.sky,
-                   frame.camera.position_m.z < displacement_max_m);
+    SurfaceVariant variant;
+    variant.underside = frame.camera.position_m.z < displacement_max_m;
+    variant.ripples = frame.quality.ripples;
+    variant.regular_waves = !frame.regular_waves.empty();
+    variant.cascades = static_cast<int>(frame.cascades.size());
+    r.surface.Draw(r.empty, r.scene, r.grid, r.sea, r.ripples, r.sky, variant);
   });
   r.Pass("tone map", [&] { r.tone.Draw(r.empty, r.scene, framebuffer, frame.quality.bloom); });
 }

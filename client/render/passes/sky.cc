@@ -1,6 +1,7 @@
 #include "client/render/passes/sky.h"
 
 #include "client/render/foam_texture.h"
+#include "client/render/passes/classify.h"
 
 namespace onesea::render {
 
@@ -38,8 +39,10 @@ void SkyPass::Draw(const VertexArray& empty, const ColorTarget& scene) {
   program_.SetSampler("sky_map", 0);
   BindTexture(1, GL_TEXTURE_2D, clouds_);
   program_.SetSampler("cloud_map", 1);
+  ClassifyPass::ChooseSkyAndEdges(program_);
   glBindVertexArray(empty.id());
   glDrawArrays(GL_TRIANGLES, 0, 3);
+  ClassifyPass::ChooseAll();
 }
 
 }  // namespace onesea::render

@@ -13,6 +13,7 @@ class SkyPass {
   static absl::StatusOr<SkyPass> Create();
 
   void SetLight(const SkyLight& light);
+  /// Where ClassifyPass left sky and edges.
   void Draw(const VertexArray& empty, const ColorTarget& scene);
 
   const Texture& map() const { return map_; }

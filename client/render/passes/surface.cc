@@ -1,22 +1,53 @@
 #include "client/render/passes/surface.h"
 
+#include <array>
+#include <string>
+
+#include "absl/strings/str_cat.h"
 #include "client/render/foam_texture.h"
+#include "client/render/passes/classify.h"
+#include "common/base/check.h"
 
 namespace onesea::render {
 
-absl::StatusOr<SurfacePass> SurfacePass::Create() {
-  std::array<ShaderProgram, 4> programs;
-  for (std::size_t n = 0; n < programs.size(); ++n) {
-    auto program = ShaderProgram::Build(
-        {"fullscreen.vert.glsl"}, {"frame.glsl", "sky.glsl", "optics.glsl", "surface.frag.glsl"},
-        {(n & 1) != 0 ? "SAMPLES 4" : "SAMPLES 1", (n & 2) != 0 ? "UNDERSIDE 1" : "UNDERSIDE 0"});
-    if (!program.ok()) return program.status();
-    programs[n] = std::move(*program);
-  }
-  return SurfacePass(std::move(programs));
+namespace {
+
+absl::StatusOr<ShaderProgram> Build(const SurfaceVariant& variant) {
+  const auto define = [](const char* name, int value) { return absl::StrCat(name, " ", value); };
+  const std::array<std::string, 6> definitions = {
+      define("EDGES", variant.edges),     define("UNDERSIDE", variant.underside),
+      define("RIPPLES", variant.ripples), define("REGULARS", variant.regular_waves),
+      define("SAMPLES", variant.samples), define("CASCADES", variant.cascades)};
+  return ShaderProgram::Build({"fullscreen.vert.glsl"},
+                              {"frame.glsl", "sky.glsl", "optics.glsl", "surface.frag.glsl"},
+                              {definitions.begin(), definitions.end()});
 }
 
-SurfacePass::SurfacePass(std::array<ShaderProgram, 4> programs) : programs_(std::move(programs)) {
+}  // namespace
+
+absl::StatusOr<SurfacePass> SurfacePass::Create() {
+  SurfacePass pass;
+  // The usual variants now, so that a driver's complaint is a status and not a crash later.
+  for (bool edges : {false, true}) {
+    for (bool underside : {false, true}) {
+      const SurfaceVariant variant{.edges = edges, .underside = underside};
+      auto program = Build(variant);
+      if (!program.ok()) return program.status();
+      pass.programs_.emplace(variant, std::move(*program));
+    }
+  }
+  return pass;
+}
+
+const ShaderProgram& SurfacePass::ProgramFor(const SurfaceVariant& variant) {
+  const auto known = programs_.find(variant);
+  if (known != programs_.end()) return known->second;
+  auto program = Build(variant);
+  ONESEA_CHECK(program.ok()) << std::string(program.status().message());
+  return programs_.emplace(variant, std::move(*program)).first->second;
+}
+
+SurfacePass::SurfacePass() {
   const std::vector<std::uint8_t> foam = MakeFoamTexture();
   BindTexture(0, GL_TEXTURE_2D, foam_);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
@@ -47,12 +78,7 @@ void SurfacePass::SetFoamWindow(const FoamCells& foam) {
 
 void SurfacePass::Draw(const VertexArray& empty, const ColorTarget& scene,
                        const SurfaceGridPass& geometry, const SeaTextures& sea,
-                       const RipplePass& ripples, const SkyPass& sky, bool underside_seen) {
-  scene.Bind();
-  const std::size_t variant =
-      (geometry.target() == GL_TEXTURE_2D ? 0U : 1U) + (underside_seen ? 2U : 0U);
-  const ShaderProgram& program = programs_[variant];
-  program.Use();
+                       const RipplePass& ripples, const SkyPass& sky, SurfaceVariant variant) {
   const struct {
     const char* name;
     GLenum target;
@@ -66,16 +92,29 @@ void SurfacePass::Draw(const VertexArray& empty, const ColorTarget& scene,
       {"foam_window_map", GL_TEXTURE_2D, foam_window_},
       {"sky_map", GL_TEXTURE_3D, sky.map()},
   };
-  int unit = 0;
-  for (const auto& input : kInputs) {
-    BindTexture(unit, input.target, input.texture);
-    program.SetSampler(input.name, unit++);
-  }
-  glEnable(GL_BLEND);  // covered share of the pixel over the sky; colours are premultiplied
-  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  scene.Bind();
+  variant.samples = geometry.target() == GL_TEXTURE_2D ? 1 : 4;
   glBindVertexArray(empty.id());
-  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);  // the covered share over the sky, premultiplied
+  for (bool edges : {false, true}) {
+    variant.edges = edges;
+    const ShaderProgram& program = ProgramFor(variant);
+    program.Use();
+    int unit = 0;
+    for (const auto& input : kInputs) {
+      BindTexture(unit, input.target, input.texture);
+      program.SetSampler(input.name, unit++);
+    }
+    if (edges) {
+      glEnable(GL_BLEND);
+      ClassifyPass::ChooseEdges(program);
+    } else {
+      ClassifyPass::ChooseSheets(program);
+    }
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+  }
   glDisable(GL_BLEND);
+  ClassifyPass::ChooseAll();
 }
 
 }  // namespace onesea::render

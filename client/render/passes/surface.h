@@ -1,6 +1,7 @@
 #pragma once
 
-#include <array>
+#include <compare>
+#include <map>
 
 #include "absl/status/statusor.h"
 #include "client/render/gl_objects.h"
@@ -12,19 +13,34 @@
 
 namespace onesea::render {
 
+/// What the shader is compiled for: software rasterisers pay for every branch that it could take.
+struct SurfaceVariant {
+  bool edges = false;      ///< pixels of several sheets of water, or of water and sky
+  bool underside = false;  ///< the eye may look at the surface from below
+  bool ripples = true;
+  bool regular_waves = false;
+  int samples = 4;
+  int cascades = 4;
+  friend auto operator<=>(const SurfaceVariant&, const SurfaceVariant&) = default;
+};
+
 /// Shades the sea, once per covered pixel, over the sky.
 class SurfacePass {
  public:
   static absl::StatusOr<SurfacePass> Create();
 
   void SetFoamWindow(const FoamCells& foam);
+  /// Where ClassifyPass left sheets and edges; `variant.edges` and `.samples` are filled in. A new
+  /// variant is compiled on first use.
   void Draw(const VertexArray& empty, const ColorTarget& scene, const SurfaceGridPass& geometry,
             const SeaTextures& sea, const RipplePass& ripples, const SkyPass& sky,
-            bool underside_seen);
+            SurfaceVariant variant);
 
  private:
-  explicit SurfacePass(std::array<ShaderProgram, 4> programs);
-  std::array<ShaderProgram, 4> programs_;  // bit 0: four samples a pixel, bit 1: underside seen
+  SurfacePass();
+  const ShaderProgram& ProgramFor(const SurfaceVariant& variant);
+
+  std::map<SurfaceVariant, ShaderProgram> programs_;
   Texture foam_, foam_window_;
   int window_side_ = 0;
 };

@@ -30,40 +30,44 @@ vec3 normal_of(Waves w) {
   return normalize(n);
 }
 
+// Straight code on purpose: software rasterisers run both sides of every branch, and a loop that
+// might end early costs them more than what it skips. CASCADES is a constant for the same reason.
 Waves gather(vec2 xy, float distance, vec3 v) {
   Waves w = Waves(vec2(0.0), vec3(0.0), vec3(0.0), 0.0);
   float across = distance * ray_forward.w;
   float cosine = max(v.z, 0.12);
-  int cascades = int(counts.x);
-  int c = 0;
-  for (; c < cascades; ++c) {
-    float lod = log2(max(across * pow(cosine, -0.7) / cascade_map[c].w, 1.0));
-    if (lod > 6.5) break;
+  // Footprint: the pixel, stretched along the view by up to 1/cosine, filtered by one round kernel.
+  float footprint = log2(across * inversesqrt(cosine * sqrt(cosine)));
+  for (int c = 0; c < CASCADES; ++c) {
+    float lod = max(footprint - cascade_map[c].w, 0.0);
     vec3 at = vec3(tile_coordinate(c, xy), float(c));
     vec4 slope = textureLod(slope_map, at, lod);
     vec4 moment = textureLod(moment_map, at, lod);
     w.slope += slope.xy;
     w.jacobian += vec3(slope.zw, moment.x);
     w.variance += max(moment.yzw - vec3(slope.xy * slope.xy, slope.x * slope.y), vec3(0.0, 0.0, -1.0));
-    if (c < 2) cosine = clamp(dot(normal_of(w), v) + 0.04, 0.12, 1.0);
+    if (c == min(1, CASCADES - 1)) {
+      // The long waves tilt the water to the eye or away from it.
+      cosine = clamp(dot(normal_of(w), v) + 0.04, 0.12, 1.0);
+      footprint = log2(across * inversesqrt(cosine * sqrt(cosine)));
+    }
   }
-  for (; c < cascades; ++c) w.variance += cascade_stats[c].xyz;
   // A wave of slope s changes J by choppiness times s.
   w.folding = water_leaving.w * water_leaving.w * (w.variance.x + w.variance.y);
   w.variance += fine_variance.xyz;
-  float ripple_lod = log2(max(across * pow(cosine, -0.9) / ripple_map.w, 1.0));
-  int rippled = ripple_stats.w > 0.5 && ripple_lod < 5.5 ? 1 : 0;
-  w.variance += rippled > 0 ? vec3(0.0) : ripple_stats.xyz * ripple_stats.w;
-  for (; rippled > 0; --rippled) {
-    vec2 at = xy * ripple_map.z + ripple_map.xy;
-    w.slope += 0.8 * textureLod(ripple_slope_map, at, ripple_lod).xy;
-    // The same tile again, finer and turned: waves of 2.5 cm, and no repetition after 3.7 m.
-    vec2 fine = textureLod(ripple_slope_map, mat2(0.77, 0.64, -0.64, 0.77) * at * 3.3, ripple_lod + 1.72).xy;
-    w.slope += 0.6 * (mat2(0.77, -0.64, 0.64, 0.77) * fine);
-    // The share of their variance that a mip has lost, measured once: s-shaped in its level.
-    float lost = 0.64 * smoothstep(-0.5, 4.2, ripple_lod) + 0.36 * smoothstep(-2.2, 2.5, ripple_lod);
-    w.variance += ripple_stats.xyz * lost;
-  }
+#if RIPPLES
+  float ripple_lod = max(footprint - 0.2 * log2(cosine) - ripple_map.w, 0.0);
+  vec2 at = xy * ripple_map.z + ripple_map.xy;
+  w.slope += 0.8 * textureLod(ripple_slope_map, at, ripple_lod).xy;
+  // The same tile again, finer and turned: waves of 2.5 cm, and no repetition after 3.7 m.
+  const mat2 kTurn = mat2(0.77, 0.64, -0.64, 0.77);
+  vec2 fine = textureLod(ripple_slope_map, kTurn * at * 3.3, ripple_lod + 1.72).xy;
+  w.slope += 0.6 * (fine * kTurn);
+  // The share of their variance that a mip has lost, measured once: s-shaped in its level.
+  float lost = 0.64 * smoothstep(-0.5, 4.2, ripple_lod) + 0.36 * smoothstep(-2.2, 2.5, ripple_lod);
+  w.variance += ripple_stats.xyz * lost;
+#endif
+#if REGULARS
   int regulars = int(counts.y);
   for (int n = 0; n < regulars; ++n) {
     vec4 wave = regular[n];
@@ -73,6 +77,7 @@ Waves gather(vec2 xy, float distance, vec3 v) {
     float fold = -water_leaving.w * wave.z * length(wave.xy) * cos(phase);
     w.jacobian += fold * vec3(unit * unit, unit.x * unit.y);
   }
+#endif
   return w;
 }
 
@@ -101,26 +106,20 @@ Foam foam_at(vec2 xy, Waves w, float fold, float footprint) {
   float cover = 0.85 * share_below(wind.w, fold, max(spread, 0.05));
   vec2 edge = abs(xy) / max(foam_window.w, 1e-3);
   float inside = 1.0 - smoothstep(0.75, 0.97, max(edge.x, edge.y));
-  for (int near = inside > 0.0 ? 1 : 0; near > 0; --near) {
-    float lod = log2(max(footprint * foam_window.z * float(textureSize(foam_window_map, 0).x), 1.0));
-    float window = textureLod(foam_window_map, xy * foam_window.z + foam_window.xy, lod).r;
-    cover = mix(cover, window, inside);
-  }
-  float mask = cover;
-  float shade = 1.0;
-  float detail_lod = log2(max(footprint * foam_detail.z * 512.0, 1.0));
-  for (int laced = cover > 0.004 && detail_lod < 6.5 ? 1 : 0; laced > 0; --laced) {
-    vec2 at = xy * foam_detail.z + foam_detail.xy;
-    float lace = textureLod(foam_map, at, detail_lod).r;
-    float fine = textureLod(foam_map, vec2(0.8 * at.x - 0.6 * at.y, 0.6 * at.x + 0.8 * at.y) * 2.7, detail_lod + 1.43).r;
-    lace = clamp(0.5 + (0.72 * (lace - 0.5) + 0.42 * (fine - 0.5)), 0.0, 1.0);
-    float width = clamp(0.6 * cover, 0.015, 0.17);
-    mask = smoothstep(1.0 - cover - width, 1.0 - cover + width, lace);
-    float froth = 1.0 - clamp(detail_lod * 0.25 - 0.5, 0.0, 1.0);
-    shade = mix(1.0, 0.72 + 0.5 * fine, froth);
-    mask = mix(cover, mask * (0.78 + 0.22 * lace), froth);
-  }
-  return Foam(mask, clamp(cover * 0.8, 0.0, 1.0), shade);
+  float window_lod = max(log2(footprint * foam_window.z * float(textureSize(foam_window_map, 0).x)), 0.0);
+  float window = textureLod(foam_window_map, xy * foam_window.z + foam_window.xy, window_lod).r;
+  cover = mix(cover, window, inside);
+
+  vec2 at = xy * foam_detail.z + foam_detail.xy;
+  float detail_lod = max(log2(footprint * foam_detail.z * 512.0), 0.0);
+  float lace = textureLod(foam_map, at, detail_lod).r;
+  float fine = textureLod(foam_map, mat2(0.8, 0.6, -0.6, 0.8) * at * 2.7, detail_lod + 1.43).r;
+  lace = clamp(0.5 + (0.72 * (lace - 0.5) + 0.42 * (fine - 0.5)), 0.0, 1.0);
+  float width = clamp(0.6 * cover, 0.015, 0.17);
+  float mask = smoothstep(1.0 - cover - width, 1.0 - cover + width, lace);
+  float froth = 1.0 - clamp(detail_lod * 0.25 - 0.5, 0.0, 1.0);
+  mask = mix(cover, mask * (0.78 + 0.22 * lace), froth);
+  return Foam(mask, clamp(cover * 0.8, 0.0, 1.0), mix(1.0, 0.72 + 0.5 * fine, froth));
 }
 
 vec3 shade_above(vec2 xy, float distance, vec3 direction) {
@@ -183,56 +182,45 @@ vec3 shade_below(vec2 xy, float distance, vec3 direction) {
 }
 #endif
 
-// Loops that run once or not at all stand for branches below: software rasterisers execute both
-// sides of an `if` for every pixel, but leave a loop as soon as no pixel of the block is in it.
+vec3 shade(vec4 s, vec3 direction) {
+#if UNDERSIDE
+  s.z = (s.z < 0.0 ? -1.0 : 1.0) * clamp(abs(s.z), 0.01, 1e5);  // pixels without water, too
+  vec3 above = shade_above(s.xy, abs(s.z), direction), below = shade_below(s.xy, abs(s.z), direction);
+  return s.z >= 0.0 ? above : below;
+#else
+  return shade_above(s.xy, s.z, direction);
+#endif
+}
+
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   vec3 direction = picture_ray(picture);
-#if SAMPLES > 1
-  vec4 sum = vec4(0.0);
-  float low = 1e9, high = -1e9;
+#if EDGES
+  // The nearest and the farthest sheet of water in the pixel speak for the samples closer to them.
+  vec4 s[SAMPLES];
+  vec4 near = vec4(0.0, 0.0, 1e9, 0.0), far = vec4(0.0);
   for (int n = 0; n < SAMPLES; ++n) {
-    vec4 s = texelFetch(surface_map, pixel, n);
-    sum += s;
-    low = min(low, s.z);
-    high = max(high, s.z);
+    s[n] = texelFetch(surface_map, pixel, n);
+    if (s[n].w > 0.5 && abs(s[n].z) < abs(near.z)) near = s[n];
+    if (s[n].w > 0.5 && abs(s[n].z) > abs(far.z)) far = s[n];
   }
-  // One sheet of water: its middle speaks for all samples.
-  bool sheet = sum.w == float(SAMPLES) && high - low < 0.04 * abs(high) + 0.05;
-  float covered = sum.w / float(SAMPLES);
-  int shades = sheet ? 1 : (sum.w > 0.0 ? SAMPLES : 0);
-#else
-  vec4 sum = texelFetch(surface_map, pixel, 0);
-  float covered = sum.w;
-  int shades = covered > 0.5 ? 1 : 0;
-#endif
-  vec3 colour = vec3(0.0);
-  float weight = 0.0;
-  for (int n = 0; n < shades; ++n) {
-#if SAMPLES > 1
-    vec4 s = sheet ? sum * (1.0 / float(SAMPLES)) : texelFetch(surface_map, pixel, n);
-#else
-    vec4 s = sum;
-#endif
-    vec3 shaded = vec3(0.0);
-    for (int above = s.w > 0.5 && s.z >= 0.0 ? 1 : 0; above > 0; --above) {
-      shaded = shade_above(s.xy, s.z, direction);
-    }
-#if UNDERSIDE
-    for (int below = s.w > 0.5 && s.z < 0.0 ? 1 : 0; below > 0; --below) {
-      shaded = shade_below(s.xy, -s.z, direction);
-    }
-#endif
-    colour += shaded * s.w;
-    weight += s.w;
+  float covered = 0.0, near_share = 0.0;
+  for (int n = 0; n < SAMPLES; ++n) {
+    covered += s[n].w / float(SAMPLES);
+    bool is_near = abs(abs(s[n].z) - abs(near.z)) < abs(abs(s[n].z) - abs(far.z));
+    near_share += is_near ? s[n].w / float(SAMPLES) : 0.0;
   }
-  colour /= max(weight, 1.0);
+  vec3 colour = mix(shade(far, direction), shade(near, direction), near_share / max(covered, 1e-3));
 #if UNDERSIDE
-  if (eye.z < 0.0 && covered < 1.0) {
+  if (eye.z < 0.0) {
     // No surface on this ray from under water: the body of the sea.
-    colour = mix(3.0 * water_leaving.rgb * (1.0 + 0.6 * direction.z), colour, covered);
+    vec3 body = 3.0 * water_leaving.rgb * (1.0 + 0.6 * direction.z);
+    colour = mix(body, colour, covered);
     covered = 1.0;
   }
 #endif
   radiance = vec4(colour * covered, covered);
+#else
+  radiance = vec4(shade(texelFetch(surface_map, pixel, 0), direction), 1.0);
+#endif
 }

@@ -13,11 +13,11 @@ void main() {
 
   // Waves that the lattice can't carry are left to the shading: mips by the spacing of vertices.
   float across = radius * grid.z, along = radius * grid.w;
-  float spacing = sqrt(across * along);
+  float spacing = 0.5 * log2(max(across * along, 1e-6));
   vec3 moved = vec3(0.0);
   int cascades = int(counts.x);
   for (int c = 0; c < cascades; ++c) {
-    float lod = log2(max(spacing / cascade_map[c].w, 1.0)) + 0.8;
+    float lod = max(spacing - cascade_map[c].w, 0.0) + 0.8;
     if (lod > 6.0) break;  // cascades grow finer: the rest averages to nothing here
     moved += textureLod(displacement_map, vec3(tile_coordinate(c, xy), float(c)), lod).xyz;
   }

@@ -15,9 +15,11 @@ vec3 filmic(vec3 x) {
   float luminance = dot(x, vec3(0.2126, 0.7152, 0.0722));
   x = mix(x, vec3(luminance), 0.10);
   // x^c / (x^c + m^c): a response curve whose slope at mid grey is the contrast c.
-  const float kContrast = 1.32, kMiddle = 0.56;
-  vec3 p = pow(max(x, vec3(0.0)), vec3(kContrast));
-  vec3 y = p / (p + pow(kMiddle, kContrast));
+  // With c = 5/4 the power is two roots.
+  const float kMiddlePower = 0.484;  // 0.56^c
+  x = max(x, vec3(0.0));
+  vec3 p = x * sqrt(sqrt(x));
+  vec3 y = p / (p + kMiddlePower);
   float grey = dot(y, vec3(0.2126, 0.7152, 0.0722));
   return clamp(mix(vec3(grey), y, 1.14), 0.0, 1.0);
 }

@@ -1,0 +1,70 @@
+#include "client/render/passes/classify.h"
+
+#include "common/base/check.h"
+
+namespace onesea::render {
+namespace {
+
+// Between the classes 0, 0.5 and 1, in clip space.
+constexpr float kBetweenSheetAndSky = -0.5f, kBetweenSkyAndEdge = 0.5f;
+
+void Choose(const ShaderProgram& program, float plane, GLenum test) {
+  glEnable(GL_DEPTH_TEST);
+  glDepthMask(GL_FALSE);
+  glDepthFunc(test);
+  glUniform1f(program.Uniform("plane"), plane);
+}
+
+}  // namespace
+
+absl::StatusOr<ClassifyPass> ClassifyPass::Create() {
+  std::array<ShaderProgram, 2> programs;
+  for (std::size_t n = 0; n < programs.size(); ++n) {
+    auto program = ShaderProgram::Build({"fullscreen.vert.glsl"}, {"frame.glsl", "classify.frag.glsl"},
+                                        {n == 0 ? "SAMPLES 1" : "SAMPLES 4"});
+    if (!program.ok()) return program.status();
+    programs[n] = std::move(*program);
+  }
+  return ClassifyPass(std::move(programs));
+}
+
+void ClassifyPass::Draw(const VertexArray& empty, const ColorTarget& scene,
+                        const SurfaceGridPass& geometry) {
+  scene.Bind();
+  if (scene.width != width_ || scene.height != height_) {
+    width_ = scene.width;
+    height_ = scene.height;
+    glBindRenderbuffer(GL_RENDERBUFFER, depth_.id());
+    glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT32F, width_, height_);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_.id());
+    ONESEA_CHECK(glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE);
+  }
+  const ShaderProgram& program = programs_[geometry.target() == GL_TEXTURE_2D ? 0 : 1];
+  program.Use();
+  BindTexture(0, geometry.target(), geometry.surface());
+  program.SetSampler("surface_map", 0);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_ALWAYS);
+  glDepthMask(GL_TRUE);
+  glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  glBindVertexArray(empty.id());
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  ChooseAll();
+}
+
+void ClassifyPass::ChooseSheets(const ShaderProgram& program) {
+  Choose(program, kBetweenSheetAndSky, GL_GREATER);
+}
+void ClassifyPass::ChooseEdges(const ShaderProgram& program) {
+  Choose(program, kBetweenSkyAndEdge, GL_LESS);
+}
+void ClassifyPass::ChooseSkyAndEdges(const ShaderProgram& program) {
+  Choose(program, kBetweenSheetAndSky, GL_LESS);
+}
+void ClassifyPass::ChooseAll() {
+  glDisable(GL_DEPTH_TEST);
+  glDepthMask(GL_TRUE);
+}
+
+}  // namespace onesea::render

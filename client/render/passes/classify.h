@@ -1,0 +1,36 @@
+#pragma once
+
+#include <array>
+
+#include "absl/status/statusor.h"
+#include "client/render/gl_objects.h"
+#include "client/render/passes/surface_grid.h"
+#include "client/render/shader_program.h"
+
+namespace onesea::render {
+
+/// The picture in linear radiance, with the class of each pixel as its depth: what is shaded later
+/// is chosen by the depth test, which skips whole blocks of pixels before a shader runs. (An `if`
+/// in the shader would skip nothing on a software rasteriser.)
+class ClassifyPass {
+ public:
+  static absl::StatusOr<ClassifyPass> Create();
+
+  /// Writes the classes of `geometry` into the depth of `scene`.
+  void Draw(const VertexArray& empty, const ColorTarget& scene, const SurfaceGridPass& geometry);
+
+  /// Restricts what is drawn next with `program` (in use) to one class of pixels; full-screen
+  /// triangles only. Ends with ChooseAll().
+  static void ChooseSheets(const ShaderProgram& program);     ///< one sheet of water
+  static void ChooseEdges(const ShaderProgram& program);      ///< several sheets, or water and sky
+  static void ChooseSkyAndEdges(const ShaderProgram& program);
+  static void ChooseAll();
+
+ private:
+  explicit ClassifyPass(std::array<ShaderProgram, 2> programs) : programs_(std::move(programs)) {}
+  std::array<ShaderProgram, 2> programs_;  // one sample a pixel, four
+  Renderbuffer depth_;
+  int width_ = 0, height_ = 0;
+};
+
+}  // namespace onesea::render

@@ -1,0 +1,21 @@
+// Sorts pixels by how they must be shaded, as depth, so that later passes skip whole blocks of them
+// before any shader runs: 0 one sheet of water, 0.5 sky alone, 1 an edge (several sheets, or sky too).
+#if SAMPLES > 1
+uniform sampler2DMS surface_map;
+#else
+uniform sampler2D surface_map;
+#endif
+
+void main() {
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  float low = 1e9, high = -1e9, covered = 0.0;
+  for (int n = 0; n < SAMPLES; ++n) {
+    vec4 s = texelFetch(surface_map, pixel, n);
+    covered += s.w;
+    low = min(low, s.z);
+    high = max(high, s.z);
+  }
+  bool sheet = covered == float(SAMPLES) && high - low < 0.04 * abs(high) + 0.05;
+  bool sky = covered == 0.0 && eye.z >= 0.0;
+  gl_FragDepth = sheet ? 0.0 : (sky ? 0.5 : 1.0);
+}
