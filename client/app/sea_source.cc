@@ -144,7 +144,14 @@ class ServerSource : public SeaSource, private SessionListener {
 
 absl::StatusOr<std::string> OnlySession(const std::string& address) {
   RemoteServer server(ConnectTo(address));
-  ONESEA_ASSIGN_OR_RETURN(const std::vector<SessionInfo> sessions, server.ListSessions());
+  const absl::StatusOr<std::vector<SessionInfo>> listed = server.ListSessions();
+  if (absl::IsUnavailable(listed.status())) {
+    return absl::UnavailableError(absl::StrCat(
+        "no server at ", address, ": start onesea-server, or draw a session file with ",
+        "--offline=FILE (", listed.status().message(), ")"));
+  }
+  ONESEA_RETURN_IF_ERROR(listed.status());
+  const std::vector<SessionInfo>& sessions = *listed;
   if (sessions.empty()) {
     return absl::NotFoundError(
         absl::StrCat(address, " has no session: make one with `onesea create FILE`"));

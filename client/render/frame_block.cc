@@ -1,6 +1,7 @@
 #include "client/render/frame_block.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -13,7 +14,6 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kNearM = 0.05;
-constexpr double kGustMapM = 173.0;
 constexpr double kCloudMapM = 21'000.0;
 
 double Fraction(double value) { return value - std::floor(value); }
@@ -29,8 +29,7 @@ glm::vec4 Pack(double x, double y, double z, double w) {
 glm::vec4 TileMap(Vec2d eye, double length_m, double rotation_rad, double texel_m) {
   const double c = std::cos(rotation_rad), s = std::sin(rotation_rad);
   return Pack(Fraction((c * eye.x + s * eye.y) / length_m),
-              Fraction((-s * eye.x + c * eye.y) / length_m), 1.0 / length_m,
-              std::log2(texel_m));
+              Fraction((-s * eye.x + c * eye.y) / length_m), 1.0 / length_m, std::log2(texel_m));
 }
 
 // Share of the sea that is white [-]. Source: Monahan & O'Muircheartaigh 1980.
@@ -101,6 +100,26 @@ void FillLight(const RenderFrame& frame, const SkyLight& light, FrameBlock& bloc
   block.cloud_radiance = Pack(light.cloud_radiance, 1.0 / kCloudMapM);
 }
 
+// How the window's foam is shown: what spectral folding calls foam depends on the shortest waves
+// that a recipe resolves, so the picture keeps the freshest of it, as much as this wind makes white.
+glm::vec4 FoamLevel(const FoamCells& foam, double cover) {
+  std::array<int, 256> counts{};
+  for (std::uint8_t cell : foam.cells) ++counts[cell];
+  const double total = static_cast<double>(foam.cells.size());
+  constexpr double kGainMax = 1.6;
+  for (int threshold = 0; threshold < 230; threshold += 5) {
+    double sum = 0.0;
+    for (int value = threshold; value < 256; ++value) {
+      sum += counts[static_cast<std::size_t>(value)] * (value - threshold) / (255.0 - threshold);
+    }
+    const double mean = sum / total, start = threshold / 255.0;
+    if (mean > cover) continue;
+    const double gain = std::min(kGainMax, cover / std::max(mean, 1e-9));
+    return Pack(start, gain / (1.0 - start), 0, 0);
+  }
+  return Pack(0.9, 10.0, 0, 0);
+}
+
 void FillFoam(const RenderFrame& frame, double slope_variance, FrameBlock& block) {
   const Vec2d eye{frame.camera.position_m.x, frame.camera.position_m.y};
   const double cover = WhitecapCover(frame.weather.wind_speed_m_per_s);
@@ -110,8 +129,9 @@ void FillFoam(const RenderFrame& frame, double slope_variance, FrameBlock& block
   block.wind = Pack(std::cos(frame.weather.wind_to_rad), std::sin(frame.weather.wind_to_rad),
                     frame.weather.wind_speed_m_per_s, threshold);
   block.foam_detail = Pack(Fraction(eye.x / kFoamTextureM), Fraction(eye.y / kFoamTextureM),
-                           1.0 / kFoamTextureM, 1.0 / kGustMapM);
+                           1.0 / kFoamTextureM, 0.0);
   if (frame.foam.cells.empty()) return;
+  block.foam_level = FoamLevel(frame.foam, cover);
   const double extent = frame.foam.side * frame.foam.cell_m;
   block.foam_window =
       Pack(Fraction((eye.x - frame.foam.origin_m.x) / extent),

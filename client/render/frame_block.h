@@ -27,15 +27,16 @@ struct FrameBlock {
   glm::vec4 cloud_radiance;   // w: 1 / cloud map [m]
   glm::vec4 wind;             // xy: direction, z: speed, w: fold threshold of far foam
   glm::vec4 foam_window;      // xy: offset [turns], z: 1/extent, w: half extent [m], 0: none
-  glm::vec4 foam_detail;      // xy: offset [turns], z: 1/tile, w: gust map 1/m
+  glm::vec4 foam_level;       // x: below this there is no white, y: gain above it
+  glm::vec4 foam_detail;      // xy: offset [turns], z: 1/tile
   glm::vec4 ripple_map;       // xy: offset [turns], z: 1/length, w: log2 of the texel [m]
   glm::vec4 ripple_stats;     // xyz: variance xx, yy, xy of ripples; w: 1 if drawn
   glm::vec4 fine_variance;    // xyz: slope variance held by no texture
   glm::vec4 grid;             // x: columns, y: first azimuth, z: azimuth step, w: log radius step
   glm::vec4 grid_rows;        // x: first row's log radius, y: 1 if row 0 is the nadir
   glm::vec4 counts;           // x: cascades, y: regular waves, z: texels per side
-  glm::vec4 cascade_map[kRenderCascadesMax];    // xy: offset [turns], z: 1/length, w: log2 texel [m]
-  glm::vec4 cascade_turn[kRenderCascadesMax];   // xy: cos, sin of the rotation
+  glm::vec4 cascade_map[kRenderCascadesMax];   // xy: offset [turns], z: 1/length, w: log2 texel [m]
+  glm::vec4 cascade_turn[kRenderCascadesMax];  // xy: cos, sin of the rotation
   glm::vec4 cascade_stats[kRenderCascadesMax];  // xyz: slope variance xx, yy, xy
   glm::vec4 regular[kRenderRegularWavesMax];    // kx, ky, amplitude, phase at the eye
 };

@@ -19,7 +19,7 @@ struct PassTime {
 /// always on the same thread.
 class Renderer {
  public:
-  /// Compiles the shaders and makes the textures: about 0.3 s. Internal error with the driver's log.
+  /// Compiles the shaders and makes the textures: 0.3 s. Internal error with the driver's log.
   static absl::StatusOr<std::unique_ptr<Renderer>> Create();
   ~Renderer();
 

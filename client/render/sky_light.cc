@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <utility>
 
 namespace onesea::render {
 namespace {
@@ -11,6 +12,9 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 constexpr int kColumns = SkyLight::kColumns, kRows = SkyLight::kRows;
 constexpr double kMeteredRadiance = 0.42;
+constexpr double kBrightMax = 1.1;
+// Thick cloud is neutral once the film is balanced for sun and blue sky together.
+const glm::vec3 kCloudTint(0.98f, 1.0f, 0.94f);
 // Airglow and stars, so that a moonless night is dark and not black.
 const glm::vec3 kNightRadiance(0.9e-6f, 1.2e-6f, 2.0e-6f);
 const glm::vec3 kLuminance(0.2126f, 0.7152f, 0.0722f);
@@ -113,8 +117,9 @@ void Blur(int level, SkyLight& light) {
 }
 
 // Mean of the logarithm over the sky between 2° and 40°; the sun's glow is part of what is seen.
-double MeterExposure(const SkyLight& light) {
+double MeterExposure(const SkyLight& light, double cover) {
   double sum = 0.0, weights = 0.0;
+  std::vector<std::pair<double, double>> brightness;  // with its solid angle
   for (int row = 0; row < kRows; ++row) {
     const double elevation = RowElevation(row);
     if (elevation < 0.035 || elevation > 0.70) continue;
@@ -122,12 +127,23 @@ double MeterExposure(const SkyLight& light) {
       const double luminance = glm::dot(light.radiance[At(0, row, column)], kLuminance);
       sum += CellSr(row) * std::log(std::max(luminance, 1e-9));
       weights += CellSr(row);
+      brightness.emplace_back(luminance, CellSr(row));
     }
   }
   const double mean = std::exp(sum / weights);
   // The eye does not adapt fully: dusk stays darker than noon.
   constexpr double kNoonRadiance = 0.06;
-  return kMeteredRadiance / (std::pow(mean, 0.86) * std::pow(kNoonRadiance, 0.14));
+  // A grey day is exposed to be grey-white, not middle grey.
+  const double metered = (kMeteredRadiance + 0.25 * cover * cover) /
+                         (std::pow(mean, 0.86) * std::pow(kNoonRadiance, 0.14));
+  // A low sun's glow fills a part of the sky: all but the brightest twelfth must keep its colour.
+  std::sort(brightness.begin(), brightness.end());
+  double below = 0.0;
+  for (const auto& [luminance, solid_angle] : brightness) {
+    below += solid_angle;
+    if (below > weights * 11 / 12) return std::min(metered, kBrightMax / luminance);
+  }
+  return metered;
 }
 
 }  // namespace
@@ -143,7 +159,7 @@ SkyLight ComputeSkyLight(const Atmosphere& atmosphere, const Sun& sun, double cl
   const float sine = static_cast<float>(std::max(0.0, std::sin(sun.elevation_rad)));
   // A closed deck passes about a third of the light; broken clouds are lit from the side as well.
   const glm::vec3 total = clear_sun * (sine + 0.06f * static_cast<float>(1.0 - cover)) + clear_sky;
-  light.cloud_radiance = total * static_cast<float>((0.62 - 0.30 * cover) / kPi);
+  light.cloud_radiance = total * kCloudTint * static_cast<float>((0.62 - 0.30 * cover) / kPi);
   const double veil = std::clamp((cover - 0.55) / 0.4, 0.0, 1.0);
   light.sun_irradiance = clear_sun * static_cast<float>((1.0 - veil * veil * (3.0 - 2.0 * veil)));
   AddMeanClouds(cover, light);
@@ -151,7 +167,7 @@ SkyLight ComputeSkyLight(const Atmosphere& atmosphere, const Sun& sun, double cl
   for (int level = 1; level < SkyLight::kBlurLevels; ++level) Blur(level, light);
   light.extinction_per_m = glm::max(atmosphere.SeaLevelExtinction(),
                                     glm::vec3(static_cast<float>(3.912 / visibility_m)));
-  light.exposure = MeterExposure(light);
+  light.exposure = MeterExposure(light, cover);
   return light;
 }
 

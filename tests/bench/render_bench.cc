@@ -22,11 +22,13 @@ namespace onesea::render {
 namespace {
 
 double Median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + static_cast<long>(values.size() / 2), values.end());
+  std::nth_element(values.begin(), values.begin() + static_cast<long>(values.size() / 2),
+                   values.end());
   return values[values.size() / 2];
 }
 
-void Measure(Renderer& renderer, RenderFrame& frame, TestSea& sea, int width, int height, int frames) {
+void Measure(Renderer& renderer, RenderFrame& frame, TestSea& sea, int width, int height,
+             int frames) {
   ColorTarget target;
   target.Resize(width, height, GL_RGBA8);
   std::vector<std::vector<double>> wall, cpu;
@@ -54,10 +56,12 @@ void Measure(Renderer& renderer, RenderFrame& frame, TestSea& sea, int width, in
     }
     whole.push_back(ms);
   }
-  std::printf("%dx%d, %d samples, %s\n", width, height, frame.quality.samples, glGetString(GL_RENDERER));
+  std::printf("%dx%d, %d samples, %s\n", width, height, frame.quality.samples,
+              glGetString(GL_RENDERER));
   double wall_sum = 0.0, cpu_sum = 0.0;
   for (std::size_t p = 0; p < names.size(); ++p) {
-    std::printf("  %-10s wall %7.1f ms   cpu %7.1f ms\n", names[p].c_str(), Median(wall[p]), Median(cpu[p]));
+    std::printf("  %-10s wall %7.1f ms   cpu %7.1f ms\n", names[p].c_str(), Median(wall[p]),
+                Median(cpu[p]));
     wall_sum += Median(wall[p]);
     cpu_sum += Median(cpu[p]);
   }
@@ -89,4 +93,6 @@ int Main(int frames) {
 }  // namespace
 }  // namespace onesea::render
 
-int main(int argc, char** argv) { return onesea::render::Main(argc > 1 ? std::max(1, std::atoi(argv[1])) : 12); }
+int main(int argc, char** argv) {
+  return onesea::render::Main(argc > 1 ? std::max(1, std::atoi(argv[1])) : 12);
+}

@@ -20,8 +20,9 @@ void Choose(const ShaderProgram& program, float plane, GLenum test) {
 absl::StatusOr<ClassifyPass> ClassifyPass::Create() {
   std::array<ShaderProgram, 2> programs;
   for (std::size_t n = 0; n < programs.size(); ++n) {
-    auto program = ShaderProgram::Build({"fullscreen.vert.glsl"}, {"frame.glsl", "classify.frag.glsl"},
-                                        {n == 0 ? "SAMPLES 1" : "SAMPLES 4"});
+    auto program =
+        ShaderProgram::Build({"fullscreen.vert.glsl"}, {"frame.glsl", "classify.frag.glsl"},
+                             {n == 0 ? "SAMPLES 1" : "SAMPLES 4"});
     if (!program.ok()) return program.status();
     programs[n] = std::move(*program);
   }

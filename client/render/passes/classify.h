@@ -21,8 +21,8 @@ class ClassifyPass {
 
   /// Restricts what is drawn next with `program` (in use) to one class of pixels; full-screen
   /// triangles only. Ends with ChooseAll().
-  static void ChooseSheets(const ShaderProgram& program);     ///< one sheet of water
-  static void ChooseEdges(const ShaderProgram& program);      ///< several sheets, or water and sky
+  static void ChooseSheets(const ShaderProgram& program);  ///< one sheet of water
+  static void ChooseEdges(const ShaderProgram& program);   ///< several sheets, or water and sky
   static void ChooseSkyAndEdges(const ShaderProgram& program);
   static void ChooseAll();
 

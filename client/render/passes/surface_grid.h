@@ -9,7 +9,8 @@
 namespace onesea::render {
 
 /// Draws the displaced lattice into a picture of (undisplaced x, y, distance): what the surface
-/// pass shades once per pixel. Shading in the first pass would shade each small triangle's blocks anew.
+/// pass shades once per pixel. Shading here would shade the blocks of each
+/// small triangle anew.
 class SurfaceGridPass {
  public:
   static absl::StatusOr<SurfaceGridPass> Create();

@@ -15,6 +15,7 @@ layout(std140) uniform Frame {
   vec4 cloud_radiance;
   vec4 wind;
   vec4 foam_window;
+  vec4 foam_level;
   vec4 foam_detail;
   vec4 ripple_map;
   vec4 ripple_stats;

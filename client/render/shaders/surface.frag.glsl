@@ -39,7 +39,7 @@ Waves gather(vec2 xy, float distance, vec3 v) {
   // Footprint: the pixel, stretched along the view by up to 1/cosine, filtered by one round kernel.
   float footprint = log2(across * inversesqrt(cosine * sqrt(cosine)));
   for (int c = 0; c < CASCADES; ++c) {
-    float lod = max(footprint - cascade_map[c].w, 0.0);
+    float lod = max(footprint - cascade_map[c].w - 0.3, 0.0);
     vec3 at = vec3(tile_coordinate(c, xy), float(c));
     vec4 slope = textureLod(slope_map, at, lod);
     vec4 moment = textureLod(moment_map, at, lod);
@@ -91,7 +91,23 @@ vec3 sun_glitter(Facets f, vec2 mean, vec3 variance, vec3 v) {
   float exponent = (s.y * off.x * off.x - 2.0 * s.z * off.x * off.y + s.x * off.y * off.y) / determinant;
   float density = exp(-0.5 * min(exponent, 60.0)) / (2.0 * kPi * sqrt(determinant));
   float h2 = h.z * h.z;
-  return sun_irradiance.rgb * (fresnel_exact(max(dot(h, v), 0.0)) * density / (4.0 * f.area * h2 * h2));
+  // High suns' glints are seen white: the film has lost their hue before it sees them.
+  float grey = dot(sun_irradiance.rgb, vec3(0.2126, 0.7152, 0.0722));
+  vec3 sun = mix(sun_irradiance.rgb, vec3(grey), smoothstep(0.1, 0.6, sun_direction.z));
+  return sun * (fresnel_exact(max(dot(h, v), 0.0)) * density / (4.0 * f.area * h2 * h2));
+}
+
+// Mean 1. Where a pixel sees only a few facets that can glint, their number is a matter of chance:
+// exponential numbers in cells of about a pixel, drawn anew eight times a second.
+float sparkle(vec2 xy, float footprint) {
+  float size = exp2(ceil(log2(max(footprint, 0.004))));
+  vec2 cell = floor(xy / size + foam_detail.xy * (1.0 / foam_detail.z) / size);
+  float turn = floor(eye.w * 8.0 + fract(dot(cell, vec2(0.371, 0.729))));
+  vec3 p = fract(vec3(cell, turn) * vec3(0.1031, 0.1030, 0.0973));
+  p += dot(p, p.yzx + 33.33);
+  float u = fract((p.x + p.y) * p.z);
+  float chance = 0.75 * (1.0 - smoothstep(0.15, 2.0, footprint));
+  return mix(1.0, -log(max(u, 1e-3)), chance);
 }
 
 struct Foam {
@@ -106,19 +122,28 @@ Foam foam_at(vec2 xy, Waves w, float fold, float footprint) {
   float cover = 0.85 * share_below(wind.w, fold, max(spread, 0.05));
   vec2 edge = abs(xy) / max(foam_window.w, 1e-3);
   float inside = 1.0 - smoothstep(0.75, 0.97, max(edge.x, edge.y));
-  float window_lod = max(log2(footprint * foam_window.z * float(textureSize(foam_window_map, 0).x)), 0.0);
-  float window = textureLod(foam_window_map, xy * foam_window.z + foam_window.xy, window_lod).r;
-  cover = mix(cover, window, inside);
-
   vec2 at = xy * foam_detail.z + foam_detail.xy;
   float detail_lod = max(log2(footprint * foam_detail.z * 512.0), 0.0);
   float lace = textureLod(foam_map, at, detail_lod).r;
   float fine = textureLod(foam_map, mat2(0.8, 0.6, -0.6, 0.8) * at * 2.7, detail_lod + 1.43).r;
-  lace = clamp(0.5 + (0.72 * (lace - 0.5) + 0.42 * (fine - 0.5)), 0.0, 1.0);
-  float width = clamp(0.6 * cover, 0.015, 0.17);
+  // Far away the tile's own lace is too small to see, and one five times as large takes over.
+  float coarse = textureLod(foam_map, mat2(0.6, 0.8, -0.8, 0.6) * at * 0.21, max(detail_lod - 2.25, 0.0)).r;
+
+  float window_lod = max(log2(footprint * foam_window.z * float(textureSize(foam_window_map, 0).x)), 0.0);
+  // Bent by the lace, so that the window's cells don't show.
+  vec2 bent = xy + vec2(coarse - 0.5, lace - 0.5) * 1.6;
+  float window = textureLod(foam_window_map, bent * foam_window.z + foam_window.xy, window_lod).r;
+  float fresh = clamp((window - foam_level.x) * foam_level.y, 0.0, 1.0);
+  // The old foam around it is lace with more holes than film.
+  cover = mix(cover, max(0.80 * fresh, 0.26 * window), inside);
+
+  float nearness = clamp(1.6 - 0.4 * detail_lod, 0.0, 1.0);
+  lace = 0.5 + nearness * (0.62 * (lace - 0.5) + 0.42 * (fine - 0.5)) + mix(1.0, 0.35, nearness) * (coarse - 0.5);
+  lace = clamp(lace, 0.0, 1.0);
+  float width = clamp(0.6 * cover, 0.02, 0.24);
   float mask = smoothstep(1.0 - cover - width, 1.0 - cover + width, lace);
-  float froth = 1.0 - clamp(detail_lod * 0.25 - 0.5, 0.0, 1.0);
-  mask = mix(cover, mask * (0.78 + 0.22 * lace), froth);
+  float froth = 1.0 - clamp(detail_lod * 0.25 - 1.0, 0.0, 1.0);
+  mask = mix(cover, mask * (0.62 + 0.38 * lace), froth);
   return Foam(mask, clamp(cover * 0.8, 0.0, 1.0), mix(1.0, 0.72 + 0.5 * fine, froth));
 }
 
@@ -154,7 +179,7 @@ vec3 shade_above(vec2 xy, float distance, vec3 direction) {
   body += foam_irradiance.rgb * foam.bubbles;
 
   float wet = 1.0 - foam.mask;
-  vec3 glint = min(sun_glitter(f, mean, w.variance, v), vec3(60.0));
+  vec3 glint = min(sun_glitter(f, mean, w.variance, v), vec3(60.0)) * sparkle(xy, footprint);
   vec3 colour = fresnel * reflected + (1.0 - fresnel) * body + glint * wet;
   vec3 light = sun_irradiance.rgb * max(dot(n, sun_direction.xyz), 0.0) + sky_irradiance.rgb * (0.5 + 0.5 * n.z);
   vec3 white = light * (0.55 / kPi) * foam.shade;
