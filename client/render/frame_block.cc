@@ -101,7 +101,7 @@ void FillLight(const RenderFrame& frame, const SkyLight& light, FrameBlock& bloc
 }
 
 // How the window's foam is shown: what spectral folding calls foam depends on the shortest waves
-// that a recipe resolves, so the picture keeps the freshest of it, as much as this wind makes white.
+// that a recipe resolves, so the picture keeps the freshest of it, what this wind makes white.
 glm::vec4 FoamLevel(const FoamCells& foam, double cover) {
   std::array<int, 256> counts{};
   for (std::uint8_t cell : foam.cells) ++counts[cell];

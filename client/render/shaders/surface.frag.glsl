@@ -141,7 +141,7 @@ Foam foam_at(vec2 xy, Waves w, float fold, float footprint) {
   lace = 0.5 + nearness * (0.62 * (lace - 0.5) + 0.42 * (fine - 0.5)) + mix(1.0, 0.35, nearness) * (coarse - 0.5);
   lace = clamp(lace, 0.0, 1.0);
   float width = clamp(0.6 * cover, 0.02, 0.24);
-  float mask = smoothstep(1.0 - cover - width, 1.0 - cover + width, lace);
+  float mask = smoothstep(1.0 - cover - width, 1.0 - cover + width, lace) * smoothstep(0.0, 0.03, cover);
   float froth = 1.0 - clamp(detail_lod * 0.25 - 1.0, 0.0, 1.0);
   mask = mix(cover, mask * (0.62 + 0.38 * lace), froth);
   return Foam(mask, clamp(cover * 0.8, 0.0, 1.0), mix(1.0, 0.72 + 0.5 * fine, froth));
