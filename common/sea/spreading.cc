@@ -1,5 +1,6 @@
 #include "common/sea/spreading.h"
 
+#include <array>
 #include <cmath>
 
 #include "common/base/real_math.h"
@@ -35,10 +36,18 @@ double DonelanBannerShape(double beta, double swell, double cos_delta) {
 double DonelanBannerNormaliser(double beta, double swell) {
   if (!(swell > 0.0)) return beta / (2.0 * real::Tanh(beta * kPi));
   constexpr int kIntervals = 64;
+  static const std::array<double, kIntervals> log_half_cosine = [] {  // ln cos²(Δ/2)
+    std::array<double, kIntervals> logs{};
+    for (int n = 0; n < kIntervals; ++n) {
+      logs[static_cast<std::size_t>(n)] =
+          real::Log(0.5 * (1.0 + real::Cos(kPi * (n + 0.5) / kIntervals)));
+    }
+    return logs;
+  }();
   double sum = 0.0;
   for (int n = 0; n < kIntervals; ++n) {
-    const double delta = kPi * (n + 0.5) / kIntervals;
-    sum += Sech2(beta * delta) * HalfCosinePower(real::Cos(delta), swell);
+    sum += Sech2(beta * (kPi * (n + 0.5) / kIntervals)) *
+           real::Exp(swell * log_half_cosine[static_cast<std::size_t>(n)]);
   }
   return 1.0 / (2.0 * sum * kPi / kIntervals);
 }

@@ -9,8 +9,11 @@ set -u
 root=$1
 work=$2
 shift 2
+cd "$root" || exit 1  # relative paths: a compiler cache then serves every checkout
 files="$*"
 golden=$root/tests/golden/expected_hashes.txt
+# As in common/sea/CMakeLists.txt.
+no_sve="-DHWY_DISABLED_TARGETS=(HWY_SVE|HWY_SVE2|HWY_SVE_256|HWY_SVE2_128)"
 cache=$(command -v ccache || true)
 failed=0
 ran=0
@@ -32,10 +35,11 @@ leg() {
   }
   dir=$work/$name
   mkdir -p "$dir"
+  rm -f "$dir"/*.o
   if ! printf '%s\n' $files | xargs -P 2 -I FILE sh -c '
       object=$1/$(echo "$2" | tr / _).o
-      $3 $4 -std=c++20 $5 -ffp-contract=off "-DHWY_DISABLED_TARGETS=(HWY_SVE|HWY_SVE2|HWY_SVE_256|HWY_SVE2_128)" -I "$6" -c "$6/$2" -o "$object"' \
-      - "$dir" FILE "$cache" "$compiler" "$flags" "$root" 2>"$dir/errors"; then
+      $3 $4 -std=c++20 $5 -ffp-contract=off "$6" -I . -c "$2" -o "$object"' \
+      - "$dir" FILE "$cache" "$compiler" "$flags" "$no_sve" 2>"$dir/errors"; then
     echo "FAIL $name: does not compile"
     head -20 "$dir/errors"
     failed=1
