@@ -92,6 +92,16 @@ absl::StatusOr<sea::TransformKind> TransformFlag() {
   return absl::InvalidArgumentError(absl::StrCat("--transform=", name, ": is not own or fftw"));
 }
 
+absl::Status SetLogLevel(const std::string& name) {
+  const spdlog::level::level_enum level = spdlog::level::from_str(name);
+  if (level == spdlog::level::off && name != "off") {  // what from_str makes of unknown names
+    return absl::InvalidArgumentError(
+        absl::StrCat("--log_level=", name, ": is none of trace, debug, info, warn, error, off"));
+  }
+  spdlog::set_level(level);
+  return absl::OkStatus();
+}
+
 absl::Status PrintDefaultSession() {
   ONESEA_ASSIGN_OR_RETURN(const std::string path, FindDefaultSession());
   std::ifstream file(path);
@@ -157,7 +167,10 @@ int Main(int argc, char** argv) {
   ParseFlags(argc, argv);
   spdlog::set_default_logger(spdlog::stderr_color_mt("onesea-server"));
   spdlog::set_pattern("%Y-%m-%d %H:%M:%S.%e %^%l%$ %v");
-  spdlog::set_level(spdlog::level::from_str(absl::GetFlag(FLAGS_log_level)));
+  if (const absl::Status status = SetLogLevel(absl::GetFlag(FLAGS_log_level)); !status.ok()) {
+    std::fprintf(stderr, "onesea-server: %s\n", std::string(status.message()).c_str());
+    return 1;
+  }
 
   // Before any thread is made, so that all inherit it and only sigwait sees these.
   sigset_t stop_signals;

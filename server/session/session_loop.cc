@@ -47,13 +47,12 @@ void SessionLoop::Run() {
     {
       absl::MutexLock lock(&mutex_);
       if (closed_) return;
-      disturbed_ = false;
       const std::int64_t wake_ns = runner_.Advance(clock_.MonotonicNs(), deferred);
       PublishView();
       const std::int64_t now_ns = clock_.MonotonicNs();
       if (deferred.empty() && wake_ns > now_ns) {
         const auto wait = absl::Nanoseconds(std::max(wake_ns - now_ns, kWaitMinNs));
-        if (!disturbed_) changed_.WaitWithTimeout(&mutex_, wait);
+        changed_.WaitWithTimeout(&mutex_, wait);
       }
     }
     RunAll(deferred);
@@ -141,7 +140,6 @@ absl::StatusOr<Tick> SessionLoop::Hold() {
   absl::MutexLock lock(&mutex_);
   ONESEA_RETURN_IF_ERROR(OpenStatus());
   ONESEA_RETURN_IF_ERROR(runner_.Hold(clock_.MonotonicNs()));
-  disturbed_ = true;
   changed_.Signal();
   return runner_.session().tick();
 }
@@ -154,7 +152,6 @@ absl::StatusOr<Tick> SessionLoop::Resume() {
     ONESEA_RETURN_IF_ERROR(OpenStatus());
     ONESEA_RETURN_IF_ERROR(runner_.Resume(clock_.MonotonicNs(), deferred));
     tick = runner_.session().tick();
-    disturbed_ = true;
     changed_.Signal();
   }
   RunAll(deferred);
@@ -165,7 +162,6 @@ absl::Status SessionLoop::SetSpeed(double speed) {
   absl::MutexLock lock(&mutex_);
   ONESEA_RETURN_IF_ERROR(OpenStatus());
   ONESEA_RETURN_IF_ERROR(runner_.SetSpeed(speed, clock_.MonotonicNs()));
-  disturbed_ = true;
   changed_.Signal();
   return absl::OkStatus();
 }
@@ -179,7 +175,6 @@ std::uint64_t SessionLoop::Step(const StepRequest& request, StepDone done) {
       deferred.push_back([done, open] { done(open); });
     } else {
       ticket = runner_.Step(request, std::move(done), clock_.MonotonicNs(), deferred);
-      disturbed_ = true;
       changed_.Signal();
     }
   }
@@ -203,7 +198,6 @@ void SessionLoop::AddObserver(std::shared_ptr<SessionObserver> observer) {
     return;
   }
   runner_.AddObserver(std::move(observer));
-  disturbed_ = true;
   changed_.Signal();
 }
 

@@ -109,7 +109,6 @@ class SessionLoop {
   absl::CondVar changed_;
   SessionRunner runner_ ABSL_GUARDED_BY(mutex_);
   bool closed_ ABSL_GUARDED_BY(mutex_) = false;
-  bool disturbed_ ABSL_GUARDED_BY(mutex_) = false;  // a command came: recompute when to wake
   mutable absl::Mutex view_mutex_;
   SessionView view_ ABSL_GUARDED_BY(view_mutex_);
   std::atomic<int> viewer_count_{0};
