@@ -147,7 +147,8 @@ int RunCli(std::span<const CliCommand> commands, std::span<const std::string> wo
     const std::string known = absl::StrJoin(
         commands, ", ",
         [](std::string* text, const CliCommand& known) { absl::StrAppend(text, known.name); });
-    return Fail(UsageError(absl::StrCat("unknown command '", words[place], "'; known: ", known)),
+    return Fail(UsageError(absl::StrCat("unknown command '", words[place], "'; known: ", known,
+                                        "; see onesea --help")),
                 err);
   }
   std::vector<std::string> rest(words.begin(), words.begin() + place);

@@ -45,6 +45,7 @@ function(onesea_library name)
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/onesea>)
   target_link_libraries(onesea_${name} PUBLIC ${ARG_PUBLIC}
     PRIVATE ${ARG_PRIVATE} $<BUILD_INTERFACE:onesea_compile_options>)
+  target_compile_features(onesea_${name} PUBLIC cxx_std_20)  # the headers need it, outside the tree too
   set_target_properties(onesea_${name} PROPERTIES EXPORT_NAME ${name})
 endfunction()
 

@@ -26,10 +26,9 @@ class Commands(unittest.TestCase):
     def tearDown(self):
         # Every test leaves the default session running at speed 1, and no other session.
         self.assertIsNone(SERVER.process.poll(), SERVER.output())
-        names = [session["name"] for session in SERVER.ask("sessions")["sessions"]]
-        for name in names[1:] if len(names) > 1 else []:
-            if name.startswith("tank"):
-                SERVER.onesea("delete", name)
+        for session in SERVER.ask("sessions")["sessions"]:
+            if session["name"].startswith("tank"):
+                SERVER.onesea("delete", session["name"])
 
     def test_sessions_shows_the_measured_storm(self):
         sessions = SERVER.ask("sessions")["sessions"]
@@ -46,6 +45,8 @@ class Commands(unittest.TestCase):
             answer = SERVER.ask("query", "--at", "0,0", "--at", "-120.5,33", "--at", "4000,-2500", "--time", time_s,
                                 "--local")
             self.assertEqual(answer["time_s"], float(time_s))
+            self.assertGreater(answer["height_error_bound_m"], 0.0)
+            self.assertLess(answer["height_error_bound_m"], 0.1)
             for point in answer["points"]:
                 self.assertEqual(point["difference_m"], 0.0)
                 self.assertLess(abs(point["height_m"]), 12.0)

@@ -88,9 +88,9 @@ class Sea {
   virtual double Now() const = 0;
 
   /// Height of the surface [m] now. NaN for a place that isn't finite or farther than 1e7 m, and
-  /// after status() failed. Cost: below 1 µs; once per 1/60 s of sea time also one synthesis (about
-  /// 0.6 ms at the default resolution), between which heights are interpolated linearly: 0.35 mm at
-  /// an acceleration of 1 g.
+  /// after status() failed. Heights are interpolated linearly between moments 1/60 s apart: 0.35 mm
+  /// at an acceleration of 1 g. Cost: some µs, and one synthesis (about 1 ms at the default
+  /// resolution) per 1/60 s of sea time. For many places at once Sample() is far cheaper a place.
   virtual double HeightAt(double x_m, double y_m) const = 0;
 
   /// The same at sea time `time_s`, past or future, within 3.2e9 s of tick 0, not interpolated in
