@@ -91,6 +91,7 @@ struct SeaSnapshot::Impl {
   QueryDetail detail = QueryDetail::kHeight;
   std::shared_ptr<const Components> components;
   std::vector<CascadeFields> fields;
+  std::vector<FloatArray> displacements;  // QueryCascade::displacement
   QueryGrids grids;
   double height_error_bound_m = 0.0;
 };
@@ -161,10 +162,14 @@ std::shared_ptr<const SeaSnapshot> SnapshotBuilder::At(SimTime time, QueryDetail
   if (recycle != nullptr && recycle.use_count() == 1 && recycle->detail() == detail &&
       recycle->impl_->components == impl_->components) {
     // Nobody else can see it, so its storage is ours.
-    snapshot->fields = std::move(const_cast<SeaSnapshot::Impl&>(*recycle->impl_).fields);
+    auto& old = const_cast<SeaSnapshot::Impl&>(*recycle->impl_);
+    snapshot->fields = std::move(old.fields);
+    snapshot->displacements = std::move(old.displacements);
   } else {
     for (const CascadeComponents& cascade : components.cascades) {
-      snapshot->fields.emplace_back(cascade.cascade.query_grid_size, wanted);
+      const int size = cascade.cascade.query_grid_size;
+      snapshot->fields.emplace_back(size, wanted);
+      snapshot->displacements.push_back(AllocateZeros<float>(DisplacementFloats(size)));
     }
   }
   snapshot->time = time;
@@ -174,10 +179,12 @@ std::shared_ptr<const SeaSnapshot> SnapshotBuilder::At(SimTime time, QueryDetail
   snapshot->grids.current_m_per_s = components.recipe.current_m_per_s;
   for (std::size_t c = 0; c < components.cascades.size(); ++c) {
     synthesisers[c].Evaluate(time, snapshot->fields[c]);
+    InterleaveDisplacement(snapshot->fields[c], snapshot->displacements[c].get());
     const CascadeFrame frame(components.cascades[c].cascade);
     QueryCascade grid{.grid_size = components.cascades[c].cascade.query_grid_size,
                       .cosine = frame.cosine,
                       .sine = frame.sine};
+    grid.displacement = snapshot->displacements[c].get();
     grid.cells_per_m = grid.grid_size / frame.length_m;
     for (int f = 0; f < kFieldCount; ++f) {
       const auto field = static_cast<Field>(f);

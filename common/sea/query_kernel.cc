@@ -40,21 +40,29 @@ constexpr float kStepNoiseM = 0.01f;
 // Least eigenvalue of the Jacobian below which the surface may fold.
 constexpr float kStretchMin = 0.6f;
 
+// A point's place in one cascade and the values at its cell's corners. All cascades are fetched
+// before any is interpolated: wide loads must not run into the narrow stores just before them.
+struct alignas(64) CascadeBlock {
+  float frac_u[kB], frac_v[kB];  // of the displaced point
+  std::int32_t cell_u[kB], cell_v[kB];
+  std::int32_t iu[kB], iv[kB];  // of the undisplaced point
+  std::int32_t offset[kB];      // of its cell in QueryCascade::displacement, in floats
+  float wu[kB], wv[kB];
+  float corners[4 * kB], high_corners[4 * kB];
+};
+
 struct alignas(64) Block {
-  float frac_u[kCascadesMax][kB], frac_v[kCascadesMax][kB];
-  std::int32_t cell_u[kCascadesMax][kB], cell_v[kCascadesMax][kB];
+  CascadeBlock cascades[kCascadesMax];
   std::uint32_t turns[kRegularWavesMax][kB];  // of the regular waves at the displaced point
   float d_x[kB], d_y[kB];                     // displacement so far
   float step_m[kB];
   float doubt[kB];  // > 0: suspicious
-  float corners[4 * kB];
-  std::int32_t iu[kB], iv[kB];
-  float wu[kB], wv[kB];
-  float sum[8][kB];
+  float plane_corners[4 * kB];
+  float sum[9][kB];
 };
 
 // Sums over cascades at x - d.
-enum Sum { kDx, kDy, kJxx, kJxy, kJyx, kJyy };
+enum Sum { kDx, kDy, kJxx, kJxy, kJyx, kJyy, kHeight, kSlopeX, kSlopeY };
 
 HWY_INLINE void Reduce(const QueryGrids& grids, const double* x, const double* y, Block& block) {
   const hn::CappedTag<double, 8> d;
@@ -62,6 +70,7 @@ HWY_INLINE void Reduce(const QueryGrids& grids, const double* x, const double* y
   const hn::Rebind<std::int32_t, decltype(d)> di;
   for (std::size_t c = 0; c < grids.cascades.size(); ++c) {
     const QueryCascade& cascade = grids.cascades[c];
+    CascadeBlock& to = block.cascades[c];
     const auto cosine = hn::Set(d, cascade.cosine), sine = hn::Set(d, cascade.sine);
     const auto scale = hn::Set(d, cascade.cells_per_m);
     const auto size = hn::Set(d, static_cast<double>(cascade.grid_size));
@@ -75,45 +84,48 @@ HWY_INLINE void Reduce(const QueryGrids& grids, const double* x, const double* y
     };
     for (std::size_t n = 0; n < kB; n += hn::Lanes(d)) {
       const auto px = hn::Load(d, x + n), py = hn::Load(d, y + n);
-      place(hn::Add(hn::Mul(cosine, px), hn::Mul(sine, py)), block.frac_u[c] + n,
-            block.cell_u[c] + n);
-      place(hn::Sub(hn::Mul(cosine, py), hn::Mul(sine, px)), block.frac_v[c] + n,
-            block.cell_v[c] + n);
+      place(hn::Add(hn::Mul(cosine, px), hn::Mul(sine, py)), to.frac_u + n, to.cell_u + n);
+      place(hn::Sub(hn::Mul(cosine, py), hn::Mul(sine, px)), to.frac_v + n, to.cell_v + n);
     }
   }
 }
 
 // Cell and weights of x - d in one cascade.
-HWY_INLINE void PlaceInCells(const QueryCascade& cascade, std::size_t c, Block& block) {
+HWY_INLINE void PlaceInCells(const QueryCascade& cascade, const Block& block, CascadeBlock& to) {
   const D d;
   const DI di;
   const V cosine = hn::Set(d, static_cast<float>(cascade.cosine * cascade.cells_per_m));
   const V sine = hn::Set(d, static_cast<float>(cascade.sine * cascade.cells_per_m));
   const VI mask = hn::Set(di, cascade.grid_size - 1);
+  const VI pitch = hn::Set(di, cascade.grid_size + 1);
   for (std::size_t n = 0; n < kB; n += hn::Lanes(d)) {
     const V dx = hn::Load(d, block.d_x + n), dy = hn::Load(d, block.d_y + n);
     const V u =
-        hn::Sub(hn::Load(d, block.frac_u[c] + n), hn::Add(hn::Mul(cosine, dx), hn::Mul(sine, dy)));
+        hn::Sub(hn::Load(d, to.frac_u + n), hn::Add(hn::Mul(cosine, dx), hn::Mul(sine, dy)));
     const V v =
-        hn::Sub(hn::Load(d, block.frac_v[c] + n), hn::Sub(hn::Mul(cosine, dy), hn::Mul(sine, dx)));
+        hn::Sub(hn::Load(d, to.frac_v + n), hn::Sub(hn::Mul(cosine, dy), hn::Mul(sine, dx)));
     const V whole_u = hn::Floor(u), whole_v = hn::Floor(v);
-    hn::Store(hn::Sub(u, whole_u), d, block.wu + n);
-    hn::Store(hn::Sub(v, whole_v), d, block.wv + n);
-    const VI iu = hn::Add(hn::Load(di, block.cell_u[c] + n), hn::ConvertTo(di, whole_u));
-    const VI iv = hn::Add(hn::Load(di, block.cell_v[c] + n), hn::ConvertTo(di, whole_v));
-    hn::Store(hn::And(iu, mask), di, block.iu + n);
-    hn::Store(hn::And(iv, mask), di, block.iv + n);
+    hn::Store(hn::Sub(u, whole_u), d, to.wu + n);
+    hn::Store(hn::Sub(v, whole_v), d, to.wv + n);
+    const VI iu = hn::Add(hn::Load(di, to.cell_u + n), hn::ConvertTo(di, whole_u));
+    const VI iv = hn::Add(hn::Load(di, to.cell_v + n), hn::ConvertTo(di, whole_v));
+    const VI u_wrapped = hn::And(iu, mask), v_wrapped = hn::And(iv, mask);
+    hn::Store(u_wrapped, di, to.iu + n);
+    hn::Store(v_wrapped, di, to.iv + n);
+    const VI at = hn::Add(hn::Mul(v_wrapped, pitch), u_wrapped);
+    hn::Store(hn::ShiftLeft<1>(at), di, to.offset + n);
   }
 }
 
-// Corner values of each point's cell, 00, 10, 01, 11 (u first), into block.corners.
-HWY_INLINE void FetchCorners(const float* plane, int grid_size, Block& block) {
+// Corner values of each point's cell in a plain plane, 00, 10, 01, 11 (u first).
+HWY_INLINE void FetchCorners(const float* plane, int grid_size, const CascadeBlock& at,
+                             float* corners) {
   const int mask = grid_size - 1;
   for (int n = 0; n < kB; ++n) {
-    const int iu = block.iu[n], iv = block.iv[n];
+    const int iu = at.iu[n], iv = at.iv[n];
     const float* low = plane + static_cast<std::size_t>(iv) * grid_size;
     const float* high = plane + static_cast<std::size_t>((iv + 1) & mask) * grid_size;
-    float* to = block.corners + 4 * n;
+    float* to = corners + 4 * n;
     if (HWY_LIKELY(iu != mask)) {
       std::memcpy(to, low + iu, 8);
       std::memcpy(to + 2, high + iu, 8);
@@ -127,9 +139,9 @@ struct Corners {
   HWY_INLINE Corners() {}  // an implicit one would not get the target's attributes
   V c00, c10, c01, c11;
 };
-HWY_INLINE Corners LoadCorners(const Block& block, std::size_t n) {
+HWY_INLINE Corners LoadCorners(const float* corners, std::size_t n) {
   Corners c;
-  hn::LoadInterleaved4(D(), block.corners + 4 * n, c.c00, c.c10, c.c01, c.c11);
+  hn::LoadInterleaved4(D(), corners + 4 * n, c.c00, c.c10, c.c01, c.c11);
   return c;
 }
 struct Bilinear {
@@ -147,21 +159,65 @@ HWY_INLINE void AddTo(float* sum, V value) {
   hn::Store(hn::Add(hn::Load(D(), sum), value), D(), sum);
 }
 
-// Adds one field of one cascade to sum `at`, and its world gradient to sums `at_x` and `at_y`.
-template <bool kGradient>
-HWY_INLINE void AddField(const QueryCascade& cascade, Field field, Block& block, int at, int at_x,
-                         int at_y) {
+// Adds one plain field of one cascade to a sum, and its world gradient to two more if they are
+// asked for.
+HWY_INLINE void AddField(const QueryCascade& cascade, Field field, const CascadeBlock& at,
+                         Block& block, int to, int to_x = -1, int to_y = -1) {
   const D d;
-  FetchCorners(cascade.planes[static_cast<int>(field)], cascade.grid_size, block);
+  FetchCorners(cascade.planes[static_cast<int>(field)], cascade.grid_size, at, block.plane_corners);
   const V cosine = hn::Set(d, static_cast<float>(cascade.cosine * cascade.cells_per_m));
   const V sine = hn::Set(d, static_cast<float>(cascade.sine * cascade.cells_per_m));
   for (std::size_t n = 0; n < kB; n += hn::Lanes(d)) {
-    const Bilinear f =
-        Interpolate(LoadCorners(block, n), hn::Load(d, block.wu + n), hn::Load(d, block.wv + n));
-    AddTo(block.sum[at] + n, f.value);
+    const Bilinear f = Interpolate(LoadCorners(block.plane_corners, n), hn::Load(d, at.wu + n),
+                                   hn::Load(d, at.wv + n));
+    AddTo(block.sum[to] + n, f.value);
+    if (to_x < 0) continue;
+    AddTo(block.sum[to_x] + n, hn::Sub(hn::Mul(cosine, f.along_u), hn::Mul(sine, f.along_v)));
+    AddTo(block.sum[to_y] + n, hn::Add(hn::Mul(sine, f.along_u), hn::Mul(cosine, f.along_v)));
+  }
+}
+
+HWY_INLINE void FetchDisplacement(const QueryCascade& cascade, CascadeBlock& to) {
+  const std::size_t up = 2 * static_cast<std::size_t>(cascade.grid_size + 1);
+  for (int n = 0; n < kB; ++n) {
+    const float* at = cascade.displacement + to.offset[n];
+    std::memcpy(to.corners + 4 * n, at, 16);
+    std::memcpy(to.high_corners + 4 * n, at + up, 16);
+  }
+}
+
+template <bool kGradient>
+HWY_INLINE void InterpolateDisplacement(const QueryGrids& grids, Block& block) {
+  const D d;
+  for (std::size_t n = 0; n < kB; n += hn::Lanes(d)) {
+    V sum_x = hn::Zero(d), sum_y = hn::Zero(d);
+    V xx = hn::Zero(d), xy = hn::Zero(d), yx = hn::Zero(d), yy = hn::Zero(d);
+    for (std::size_t c = 0; c < grids.cascades.size(); ++c) {
+      const QueryCascade& cascade = grids.cascades[c];
+      const CascadeBlock& at = block.cascades[c];
+      Corners x, y;
+      hn::LoadInterleaved4(d, at.corners + 4 * n, x.c00, y.c00, x.c10, y.c10);
+      hn::LoadInterleaved4(d, at.high_corners + 4 * n, x.c01, y.c01, x.c11, y.c11);
+      const V wu = hn::Load(d, at.wu + n), wv = hn::Load(d, at.wv + n);
+      const Bilinear dx = Interpolate(x, wu, wv), dy = Interpolate(y, wu, wv);
+      sum_x = hn::Add(sum_x, dx.value);
+      sum_y = hn::Add(sum_y, dy.value);
+      if constexpr (kGradient) {
+        const V cosine = hn::Set(d, static_cast<float>(cascade.cosine * cascade.cells_per_m));
+        const V sine = hn::Set(d, static_cast<float>(cascade.sine * cascade.cells_per_m));
+        xx = hn::Add(xx, hn::Sub(hn::Mul(cosine, dx.along_u), hn::Mul(sine, dx.along_v)));
+        xy = hn::Add(xy, hn::Add(hn::Mul(sine, dx.along_u), hn::Mul(cosine, dx.along_v)));
+        yx = hn::Add(yx, hn::Sub(hn::Mul(cosine, dy.along_u), hn::Mul(sine, dy.along_v)));
+        yy = hn::Add(yy, hn::Add(hn::Mul(sine, dy.along_u), hn::Mul(cosine, dy.along_v)));
+      }
+    }
+    hn::Store(sum_x, d, block.sum[kDx] + n);
+    hn::Store(sum_y, d, block.sum[kDy] + n);
     if constexpr (kGradient) {
-      AddTo(block.sum[at_x] + n, hn::Sub(hn::Mul(cosine, f.along_u), hn::Mul(sine, f.along_v)));
-      AddTo(block.sum[at_y] + n, hn::Add(hn::Mul(sine, f.along_u), hn::Mul(cosine, f.along_v)));
+      hn::Store(xx, d, block.sum[kJxx] + n);
+      hn::Store(xy, d, block.sum[kJxy] + n);
+      hn::Store(yx, d, block.sum[kJyx] + n);
+      hn::Store(yy, d, block.sum[kJyy] + n);
     }
   }
 }
@@ -186,14 +242,23 @@ HWY_INLINE V FactorOf(const QueryRegular& wave, Field field) {
   return hn::Set(D(), wave.factors[static_cast<int>(field)]);
 }
 
-template <bool kGradient>
+// Sums over cascades and regular waves at x - d: displacement, its gradient, height and its
+// gradient.
+template <bool kGradient, bool kWithHeight = false>
 HWY_INLINE void SumDisplacement(const QueryGrids& grids, Block& block) {
   const D d;
-  ZeroSums(block, kGradient ? 6 : 2);
   for (std::size_t c = 0; c < grids.cascades.size(); ++c) {
-    PlaceInCells(grids.cascades[c], c, block);
-    AddField<kGradient>(grids.cascades[c], Field::kDisplacementX, block, kDx, kJxx, kJxy);
-    AddField<kGradient>(grids.cascades[c], Field::kDisplacementY, block, kDy, kJyx, kJyy);
+    PlaceInCells(grids.cascades[c], block, block.cascades[c]);
+    FetchDisplacement(grids.cascades[c], block.cascades[c]);
+  }
+  InterpolateDisplacement<kGradient>(grids, block);
+  if constexpr (kWithHeight) {
+    for (int sum : {kHeight, kSlopeX, kSlopeY})
+      std::memset(block.sum[sum], 0, sizeof block.sum[sum]);
+    for (std::size_t c = 0; c < grids.cascades.size(); ++c) {
+      AddField(grids.cascades[c], Field::kHeight, block.cascades[c], block, kHeight, kSlopeX,
+               kSlopeY);
+    }
   }
   for (std::size_t r = 0; r < grids.regular.size(); ++r) {
     const QueryRegular& wave = grids.regular[r];
@@ -207,6 +272,11 @@ HWY_INLINE void SumDisplacement(const QueryGrids& grids, Block& block) {
         AddTo(block.sum[kJxy] + n, hn::Mul(FactorOf(wave, Field::kJacobianXY), cosine));
         AddTo(block.sum[kJyx] + n, hn::Mul(FactorOf(wave, Field::kJacobianXY), cosine));
         AddTo(block.sum[kJyy] + n, hn::Mul(FactorOf(wave, Field::kJacobianYY), cosine));
+      }
+      if constexpr (kWithHeight) {
+        AddTo(block.sum[kHeight] + n, hn::Mul(FactorOf(wave, Field::kHeight), cosine));
+        AddTo(block.sum[kSlopeX] + n, hn::Neg(hn::Mul(FactorOf(wave, Field::kSlopeX), sine)));
+        AddTo(block.sum[kSlopeY] + n, hn::Neg(hn::Mul(FactorOf(wave, Field::kSlopeY), sine)));
       }
     }
   }
@@ -269,16 +339,15 @@ HWY_INLINE void NewtonStep(const QueryGrids& grids, Block& block) {
   }
 }
 
-// Height and residual at the last point, both corrected to first order; block.sum[0..2] become dx,
-// dy, residual and block.sum[6] the height.
+// Height and residual at the last point; height and displacement are corrected to first order for
+// the residual.
 HWY_INLINE void FinalStep(const QueryGrids& grids, Block& block) {
-  constexpr int kHeight = 6, kSlopeX = 0, kSlopeY = 1;
   const D d;
-  SumDisplacement<true>(grids, block);
-  alignas(64) float miss_x[kB], miss_y[kB];
+  SumDisplacement<true, true>(grids, block);
   for (std::size_t n = 0; n < kB; n += hn::Lanes(d)) {
-    const V r_x = hn::Sub(hn::Load(d, block.sum[kDx] + n), hn::Load(d, block.d_x + n));
-    const V r_y = hn::Sub(hn::Load(d, block.sum[kDy] + n), hn::Load(d, block.d_y + n));
+    const V dx = hn::Load(d, block.d_x + n), dy = hn::Load(d, block.d_y + n);
+    const V r_x = hn::Sub(hn::Load(d, block.sum[kDx] + n), dx);
+    const V r_y = hn::Sub(hn::Load(d, block.sum[kDy] + n), dy);
     V step_x, step_y, stretch;
     SolveJacobian(block, n, r_x, r_y, step_x, step_y, stretch);
     const V residual = Length(r_x, r_y);
@@ -286,34 +355,13 @@ HWY_INLINE void FinalStep(const QueryGrids& grids, Block& block) {
         hn::Or(hn::Gt(residual, hn::Set(d, kConvergedM)), hn::Lt(stretch, hn::Set(d, kStretchMin)));
     hn::Store(hn::IfThenElse(bad, hn::Set(d, 1.0f), hn::Load(d, block.doubt + n)), d,
               block.doubt + n);
-    hn::Store(step_x, d, miss_x + n);
-    hn::Store(step_y, d, miss_y + n);
     hn::Store(residual, d, block.step_m + n);
-  }
-  std::memset(block.sum[kHeight], 0, sizeof block.sum[kHeight]);
-  ZeroSums(block, 2);
-  for (std::size_t c = 0; c < grids.cascades.size(); ++c) {
-    PlaceInCells(grids.cascades[c], c, block);
-    AddField<true>(grids.cascades[c], Field::kHeight, block, kHeight, kSlopeX, kSlopeY);
-  }
-  for (std::size_t r = 0; r < grids.regular.size(); ++r) {
-    const QueryRegular& wave = grids.regular[r];
-    for (std::size_t n = 0; n < kB; n += hn::Lanes(d)) {
-      V sine, cosine;
-      RegularPhase(wave, block.turns[r], block, n, sine, cosine);
-      AddTo(block.sum[kHeight] + n, hn::Mul(FactorOf(wave, Field::kHeight), cosine));
-      AddTo(block.sum[kSlopeX] + n, hn::Neg(hn::Mul(FactorOf(wave, Field::kSlopeX), sine)));
-      AddTo(block.sum[kSlopeY] + n, hn::Neg(hn::Mul(FactorOf(wave, Field::kSlopeY), sine)));
-    }
-  }
-  for (std::size_t n = 0; n < kB; n += hn::Lanes(d)) {
-    // d grows by the miss, so the undisplaced point x - d moves back by it.
-    const V miss = hn::Load(d, miss_x + n), miss_other = hn::Load(d, miss_y + n);
-    const V lift = hn::Add(hn::Mul(hn::Load(d, block.sum[kSlopeX] + n), miss),
-                           hn::Mul(hn::Load(d, block.sum[kSlopeY] + n), miss_other));
+    // d grows by the step, so the undisplaced point x - d moves back by it.
+    const V lift = hn::Add(hn::Mul(hn::Load(d, block.sum[kSlopeX] + n), step_x),
+                           hn::Mul(hn::Load(d, block.sum[kSlopeY] + n), step_y));
     hn::Store(hn::Sub(hn::Load(d, block.sum[kHeight] + n), lift), d, block.sum[kHeight] + n);
-    hn::Store(hn::Add(hn::Load(d, block.d_x + n), miss), d, block.d_x + n);
-    hn::Store(hn::Add(hn::Load(d, block.d_y + n), miss_other), d, block.d_y + n);
+    hn::Store(hn::Add(dx, step_x), d, block.d_x + n);
+    hn::Store(hn::Add(dy, step_y), d, block.d_y + n);
   }
 }
 
@@ -348,7 +396,7 @@ void SolveBlock(const QueryGrids& grids, std::span<const Vec2d> points,
   for (std::size_t n = 0; n < points.size(); ++n) {
     SurfaceSample& sample = out[n];
     sample = SurfaceSample{};
-    sample.height_m = block.sum[6][n];
+    sample.height_m = block.sum[kHeight][n];
     sample.displacement_x_m = block.d_x[n];
     sample.displacement_y_m = block.d_y[n];
     sample.residual_m = block.step_m[n];
@@ -365,10 +413,11 @@ HWY_INLINE void SumNormalFields(const QueryGrids& grids, Block& block) {
   ZeroSums(block, 8);
   const bool velocity = grids.detail == QueryDetail::kVelocity;
   for (std::size_t c = 0; c < grids.cascades.size(); ++c) {
-    PlaceInCells(grids.cascades[c], c, block);
-    for (int f = 0; f < 5; ++f) AddField<false>(grids.cascades[c], kFields[f], block, f, 0, 0);
+    const CascadeBlock& at = block.cascades[c];
+    PlaceInCells(grids.cascades[c], block, block.cascades[c]);
+    for (int f = 0; f < 5; ++f) AddField(grids.cascades[c], kFields[f], at, block, f);
     for (int f = 0; velocity && f < 3; ++f) {
-      AddField<false>(grids.cascades[c], kVelocities[f], block, 5 + f, 0, 0);
+      AddField(grids.cascades[c], kVelocities[f], at, block, 5 + f);
     }
   }
   for (std::size_t r = 0; r < grids.regular.size(); ++r) {
@@ -440,6 +489,22 @@ HWY_AFTER_NAMESPACE();
 namespace onesea::sea {
 HWY_EXPORT(SolveBlock);
 HWY_EXPORT(FinishBlockTarget);
+
+void InterleaveDisplacement(const CascadeFields& fields, float* displacement) {
+  const std::size_t size = static_cast<std::size_t>(fields.grid_size()), pitch = size + 1;
+  const float* dx = fields.Plane(Field::kDisplacementX).data();
+  const float* dy = fields.Plane(Field::kDisplacementY).data();
+  for (std::size_t y = 0; y < size; ++y) {
+    float* row = displacement + 2 * y * pitch;
+    for (std::size_t x = 0; x < size; ++x) {
+      row[2 * x] = dx[y * size + x];
+      row[2 * x + 1] = dy[y * size + x];
+    }
+    row[2 * size] = row[0];
+    row[2 * size + 1] = row[1];
+  }
+  std::memcpy(displacement + 2 * size * pitch, displacement, 2 * pitch * sizeof(float));
+}
 
 void SampleBlock(const QueryGrids& grids, std::span<const Vec2d> points,
                  std::span<SurfaceSample> out, std::span<bool> suspicious) {

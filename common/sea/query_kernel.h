@@ -19,6 +19,9 @@ struct QueryCascade {
   int grid_size = 0;
   double cosine = 1.0, sine = 0.0;
   double cells_per_m = 1.0;
+  /// ((N + 1) x (N + 1) x 2) displacement x, y; the last row and column repeat the first, so that a
+  /// cell's corners are two runs of four floats. See InterleaveDisplacement().
+  const float* displacement = nullptr;
   const float* planes[kFieldCount] = {};  ///< null where the snapshot has no such field
 };
 
@@ -46,6 +49,13 @@ struct QueryPoint {
   double height_x = 0, height_y = 0;              ///< gradient of the interpolated height
   double j_xx = 1, j_xy = 0, j_yx = 0, j_yy = 1;  ///< I + gradient of the interpolated displacement
 };
+
+/// Floats of QueryCascade::displacement.
+inline std::size_t DisplacementFloats(int grid_size) {
+  const auto side = static_cast<std::size_t>(grid_size) + 1;
+  return 2 * side * side;
+}
+void InterleaveDisplacement(const CascadeFields& fields, float* displacement);
 
 /// One point in double: for the few points that the vectorised path hands over. Bilinear as there.
 QueryPoint EvaluateQueryPoint(const QueryGrids& grids, Vec2d undisplaced);
