@@ -57,6 +57,7 @@ void RpcServer::Impl::Shutdown(double grace_s) {
   if (server == nullptr) return;
   server->GetHealthCheckService()->SetServingStatus(false);
   registry.CloseAll("the server stops");
+  watch->AwaitFarewells(grace_s);
   server->Shutdown(gpr_time_from_micros(static_cast<std::int64_t>(grace_s * 1e6), GPR_TIMESPAN));
   watch->Stop();
   server = nullptr;

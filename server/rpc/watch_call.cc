@@ -1,7 +1,10 @@
 #include "server/rpc/watch_call.h"
 
+#include <spdlog/spdlog.h>
+
 #include <utility>
 
+#include "absl/strings/escaping.h"
 #include "absl/strings/str_cat.h"
 #include "server/rpc/status_map.h"
 #include "server/rpc/watch_shard.h"
@@ -54,7 +57,8 @@ void WatchCall::Watch(absl::StatusOr<OpenMessage> open, std::int64_t now_ns) {
   absl::StatusOr<Seat> seat = shard_.hub().TakeSeat(open->session, open->audience);
   if (!seat.ok()) return Finish(seat.status(), now_ns);
   seat_ = *std::move(seat);
-  subscriber_.emplace(open->credit, now_ns);
+  viewer_ = *std::move(open);
+  subscriber_.emplace(viewer_.credit, now_ns);
   state_ = State::kWatching;
   shard_.Enlist(*this, seat_.broadcast(), seat_.audience());
   Drive(now_ns);
@@ -155,7 +159,11 @@ void BidiWatchCall::OnRead(std::int64_t now_ns) {
 
 void BidiWatchCall::OnAck(const AckMessage& ack, std::int64_t now_ns) {
   if (absl::Status s = subscriber_->OnAck(ack.sequence, now_ns); !s.ok()) return Finish(s, now_ns);
-  group->broadcast->ReportDrift(ack.drift_m);
+  if (ack.drift_m > kDriftWarnM && !warned_of_drift_) {  // NaN compares false
+    warned_of_drift_ = true;
+    spdlog::warn("session {}: viewer \"{}\" is {:.3f} m off at a probe", viewer_.session,
+                 absl::CHexEscape(viewer_.client_name), ack.drift_m);
+  }
   Drive(now_ns);
 }
 

@@ -29,6 +29,9 @@ struct WatchTag {
   WatchOp op = WatchOp::kAccepted;
 };
 
+/// A viewer this far off at a probe [m] draws another sea; the drift of a sound one is micrometres.
+inline constexpr float kDriftWarnM = 0.01f;
+
 /// A viewer that says nothing is not kept.
 inline constexpr std::int64_t kOpenTimeoutNs = 5'000'000'000;
 
@@ -90,6 +93,7 @@ class WatchCall {
   grpc::ServerContext context_;
   State state_ = State::kRequested;
   std::optional<Subscriber> subscriber_;
+  OpenMessage viewer_;
 
  private:
   void OnWritten(bool ok, std::int64_t now_ns);
@@ -119,6 +123,7 @@ class BidiWatchCall final : public WatchCall {
 
   grpc::ServerAsyncReaderWriter<grpc::ByteBuffer, grpc::ByteBuffer> stream_{&context_};
   grpc::ByteBuffer received_;
+  bool warned_of_drift_ = false;
 };
 
 /// WatchStamps: a plain server stream.

@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "absl/strings/str_cat.h"
+#include "absl/time/clock.h"
 
 namespace onesea::server {
 
@@ -33,7 +34,17 @@ void WatchServer::Start() {
   AcceptNext(false);
 }
 
+void WatchServer::AwaitFarewells(double grace_s) const {
+  for (int ms = 0; ms < grace_s * 1e3 && stats().viewers > 0; ++ms) {
+    absl::SleepFor(absl::Milliseconds(1));
+  }
+}
+
 void WatchServer::Stop() {
+  {
+    absl::MutexLock lock(&accept_mutex_);
+    stopping_ = true;
+  }
   for (const std::unique_ptr<WatchShard>& shard : shards_) shard->Stop();
 }
 
@@ -43,9 +54,12 @@ WatchShard& WatchServer::LeastLoaded() {
 }
 
 void WatchServer::AcceptNext(bool bidi) {
+  absl::MutexLock lock(&accept_mutex_);
+  if (stopping_) return;  // the queue may be down
   WatchShard& shard = LeastLoaded();
   WatchCall* call = bidi ? static_cast<WatchCall*>(new BidiWatchCall(shard, methods_))
                          : new StampsWatchCall(shard, methods_);
+  shard.CountRequested();
   call->Request();  // it deletes itself when it is over
 }
 
@@ -55,7 +69,7 @@ WatchStats WatchServer::stats() const {
     const WatchStats one = shard->stats();
     sum.frames += one.frames;
     sum.keyframes += one.keyframes;
-    sum.calls += one.calls;
+    sum.viewers += one.viewers;
   }
   return sum;
 }

@@ -5,6 +5,8 @@
 #include <memory>
 #include <vector>
 
+#include "absl/base/thread_annotations.h"
+#include "absl/synchronization/mutex.h"
 #include "common/base/clock.h"
 #include "server/rpc/watch_methods.h"
 #include "server/rpc/watch_shard.h"
@@ -17,8 +19,8 @@ struct WatchOptions {
 };
 
 /// Serves Watch and WatchStamps. Order: construct with the builder, BuildAndStart, Start; at the
-/// end close the sessions (their viewers get the farewell), grpc::Server::Shutdown with a deadline,
-/// Stop. `hub`, `methods` and `clock` outlive it. It sets the hub's wake-up.
+/// end close the sessions (their viewers get the farewell), AwaitFarewells, grpc::Server::Shutdown
+/// with a deadline, Stop. `hub`, `methods` and `clock` outlive it. It sets the hub's wake-up.
 class WatchServer {
  public:
   WatchServer(Hub& hub, WatchMethods& methods, grpc::ServerBuilder& builder,
@@ -26,6 +28,10 @@ class WatchServer {
   ~WatchServer();
 
   void Start();
+  /// After the sessions are closed: returns when every viewer has its farewell, or after `grace_s`.
+  /// grpc::Server::Shutdown ends in-process calls at once, whatever its deadline, so the farewells
+  /// must be out before.
+  void AwaitFarewells(double grace_s) const;
   void Stop();
 
   WatchStats stats() const;
@@ -39,6 +45,8 @@ class WatchServer {
   Hub& hub_;
   WatchMethods& methods_;
   std::vector<std::unique_ptr<WatchShard>> shards_;
+  absl::Mutex accept_mutex_;
+  bool stopping_ ABSL_GUARDED_BY(accept_mutex_) = false;
 };
 
 }  // namespace onesea::server

@@ -49,27 +49,30 @@ void WatchShard::Start(std::string thread_name, AcceptNext accept_next) {
 }
 
 void WatchShard::Stop() {
-  {
-    absl::MutexLock lock(&stop_mutex_);
-    if (!stopped_) queue_->Shutdown();
-    stopped_ = true;
-  }
+  stopping_ = true;
   if (thread_.joinable()) return thread_.join();
+  ShutDownQueue();
   void* tag = nullptr;
   for (bool ok = false; queue_->Next(&tag, &ok);) {  // never started: gRPC wants the queue drained
   }
 }
 
+void WatchShard::ShutDownQueue() {
+  absl::MutexLock lock(&queue_mutex_);
+  if (!queue_down_) queue_->Shutdown();
+  queue_down_ = true;
+}
+
 void WatchShard::Wake() {
   if (wake_pending_.exchange(true)) return;
-  absl::MutexLock lock(&stop_mutex_);
-  if (!stopped_) alarm_.Set(queue_.get(), gpr_inf_past(GPR_CLOCK_MONOTONIC), this);
+  absl::MutexLock lock(&queue_mutex_);
+  if (!queue_down_) alarm_.Set(queue_.get(), gpr_inf_past(GPR_CLOCK_MONOTONIC), this);
 }
 
 WatchStats WatchShard::stats() const {
   return {.frames = frames_.load(std::memory_order_relaxed),
           .keyframes = keyframes_.load(std::memory_order_relaxed),
-          .calls = call_count_.load(std::memory_order_relaxed)};
+          .viewers = viewer_count_.load(std::memory_order_relaxed)};
 }
 
 void WatchShard::Run() {
@@ -81,6 +84,7 @@ void WatchShard::Run() {
     const auto next = queue_->AsyncNext(&tag, &ok, deadline);
     if (next == grpc::CompletionQueue::SHUTDOWN) break;
     if (next == grpc::CompletionQueue::GOT_EVENT) OnEvent(tag, ok);
+    if (stopping_ && alive_ == 0) ShutDownQueue();
     if (const std::int64_t now_ns = clock_.MonotonicNs(); now_ns >= sweep_ns) {
       Sweep(now_ns);
       sweep_ns = now_ns + kSweepNs;
@@ -124,7 +128,6 @@ void WatchShard::Adopt(WatchCall& call) {
   calls_.push_back(&call);
   call.load = kLoadOfStamps;
   load_.fetch_add(call.load, std::memory_order_relaxed);
-  call_count_.fetch_add(1, std::memory_order_relaxed);
 }
 
 void WatchShard::Enlist(WatchCall& call, Broadcast* broadcast, Audience audience) {
@@ -141,6 +144,7 @@ void WatchShard::Enlist(WatchCall& call, Broadcast* broadcast, Audience audience
   }
   call.index_in_group = call.group->calls.size();
   call.group->calls.push_back(&call);
+  viewer_count_.fetch_add(1, std::memory_order_relaxed);
   call.group->Refresh(true);
 }
 
@@ -150,6 +154,7 @@ void WatchShard::Delete(WatchCall* call) {
     members.back()->index_in_group = call->index_in_group;
     std::swap(members[call->index_in_group], members.back());
     members.pop_back();
+    viewer_count_.fetch_sub(1, std::memory_order_relaxed);
     if (members.empty()) {
       std::erase_if(groups_, [&](const auto& group) { return group.get() == call->group; });
     }
@@ -159,9 +164,9 @@ void WatchShard::Delete(WatchCall* call) {
     std::swap(calls_[call->index_in_shard], calls_.back());
     calls_.pop_back();
     load_.fetch_sub(call->load, std::memory_order_relaxed);
-    call_count_.fetch_sub(1, std::memory_order_relaxed);
   }
   delete call;
+  alive_.fetch_sub(1);
 }
 
 }  // namespace onesea::server

@@ -41,7 +41,7 @@ struct WatchGroup {
 struct WatchStats {
   std::int64_t frames = 0;     ///< handed to gRPC
   std::int64_t keyframes = 0;  ///< of these
-  int calls = 0;               ///< accepted and not yet over
+  int viewers = 0;             ///< that watch a session and are not yet over
 };
 
 /// One thread with one completion queue that does everything for its viewers: it is woken when
@@ -56,8 +56,11 @@ class WatchShard {
   ~WatchShard();
 
   void Start(std::string thread_name, AcceptNext accept_next);
-  /// After grpc::Server::Shutdown. Ends the thread when every call is over.
+  /// After grpc::Server::Shutdown, and when no more calls are asked for. Waits until every call is
+  /// over, for a call may still write its last on the queue, then ends queue and thread.
   void Stop();
+  /// Any thread: one more call was asked for on this shard's queue.
+  void CountRequested() { alive_.fetch_add(1); }
   /// Any thread: there are new frames.
   void Wake();
   /// Any thread: what its viewers cost, in viewers of stamps.
@@ -76,6 +79,7 @@ class WatchShard {
   void OnEvent(void* tag, bool ok);
   void OnWake();
   void Sweep(std::int64_t now_ns);
+  void ShutDownQueue();
   void Adopt(WatchCall& call);
   void Delete(WatchCall* call);
 
@@ -89,10 +93,12 @@ class WatchShard {
   // Set by whoever wakes, cleared by the thread before it looks: at most one alarm is pending.
   std::atomic<bool> wake_pending_{false};
   grpc::Alarm alarm_;
-  absl::Mutex stop_mutex_;
-  bool stopped_ ABSL_GUARDED_BY(stop_mutex_) = false;
+  absl::Mutex queue_mutex_;
+  bool queue_down_ ABSL_GUARDED_BY(queue_mutex_) = false;  // then no alarm may be set
+  std::atomic<bool> stopping_{false};
+  std::atomic<int> alive_{0};  // calls asked for and not yet deleted
   std::atomic<int> load_{0};
-  std::atomic<int> call_count_{0};
+  std::atomic<int> viewer_count_{0};
   std::atomic<std::int64_t> frames_{0}, keyframes_{0};
 };
 

@@ -56,10 +56,4 @@ Broadcast::Newest Broadcast::newest(Audience audience, bool with_keyframe) const
   return newest;
 }
 
-void Broadcast::ReportDrift(float drift_m) {
-  float worst = worst_drift_m_.load(std::memory_order_relaxed);
-  while (drift_m > worst && !worst_drift_m_.compare_exchange_weak(worst, drift_m)) {
-  }
-}
-
 }  // namespace onesea::server

@@ -45,11 +45,6 @@ class Broadcast final : public SessionObserver {
   void RemoveViewer(Audience audience) { --viewers_[static_cast<int>(audience)]; }
   int viewer_count(Audience audience) const { return viewers_[static_cast<int>(audience)]; }
 
-  /// A viewer's report of its worst probe error [m]; NaN and negatives mean unknown.
-  void ReportDrift(float drift_m);
-  /// Worst reported since the session began; 0 when none was.
-  float worst_drift_m() const { return worst_drift_m_.load(std::memory_order_relaxed); }
-
  private:
   FrameBuilder& builder(Audience audience) const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_) {
     return builders_[static_cast<int>(audience)];
@@ -61,7 +56,6 @@ class Broadcast final : public SessionObserver {
       FrameBuilder(Audience::kStamps), FrameBuilder(Audience::kEveryFrame)};
   std::array<std::atomic<int>, kAudiences> viewers_{};
   std::atomic<bool> closed_{false};
-  std::atomic<float> worst_drift_m_{0.0f};
 };
 
 }  // namespace onesea::server

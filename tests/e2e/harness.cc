@@ -43,7 +43,7 @@ void TestServer::Start() {
   port_ = rpc_->port();
 }
 
-void TestServer::Stop() {
+void TestServer::Stop(double grace_s) {
   std::unique_ptr<server::Registry> registry;
   std::unique_ptr<server::RpcServer> rpc;
   {
@@ -52,7 +52,7 @@ void TestServer::Stop() {
     registry = std::move(registry_);
     rpc = std::move(rpc_);
   }
-  if (rpc != nullptr) rpc->Shutdown(1.0);
+  if (rpc != nullptr) rpc->Shutdown(grace_s);
 }
 
 std::shared_ptr<server::SessionLoop> TestServer::Create(SessionSpec spec) {

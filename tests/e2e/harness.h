@@ -48,7 +48,7 @@ class TestServer {
 
   /// A new registry; on loopback at the same port as before.
   void Start();
-  void Stop();
+  void Stop(double grace_s = 1.0);
 
   server::Registry& registry() { return *registry_; }
   server::RpcServer& rpc() { return *rpc_; }

@@ -199,6 +199,26 @@ TEST_P(Watch, TheServersEndSaysFarewell) {
   EXPECT_TRUE(last->farewell.has_value());
 }
 
+// Calls are cut off in every state; each still has operations on a queue that is about to end.
+TEST_P(Watch, StopsWithoutGraceUnderViewersOfEveryKind) {
+  for (int run = 0; run < 10; ++run) {
+    server_.Create(SmallSession("a"));
+    std::vector<std::unique_ptr<RawWatch>> watches;
+    for (int n = 0; n < 12; ++n) {
+      if (n % 4 == 3) {
+        watches.push_back(std::make_unique<RawWatch>(server_.Connect()()));  // never opens
+      } else {
+        watches.push_back(Open("a", 1 + n, n % 2 == 0));
+      }
+    }
+    if (run % 2 == 0) watches[0]->Read();
+    server_.Stop(0.0);
+    for (const auto& watch : watches) watch->Status();
+    watches.clear();
+    server_.Start();
+  }
+}
+
 TEST_P(Watch, HostileFirstMessagesNameTheField) {
   server_.Create(SmallSession("a"));
   const auto open = [](const std::string& session, int credit, const std::string& name = "") {

@@ -181,15 +181,5 @@ TEST(Broadcast, WakesForWatchedAudiencesOnly) {
   EXPECT_EQ(broadcast.newest(Audience::kStamps, false).sequence, 0);
 }
 
-TEST(Broadcast, KeepsTheWorstDriftAndIgnoresNonsense) {
-  Broadcast broadcast([] {});
-  broadcast.ReportDrift(-1.0f);
-  broadcast.ReportDrift(std::numeric_limits<float>::quiet_NaN());
-  EXPECT_EQ(broadcast.worst_drift_m(), 0.0f);
-  broadcast.ReportDrift(0.002f);
-  broadcast.ReportDrift(0.001f);
-  EXPECT_EQ(broadcast.worst_drift_m(), 0.002f);
-}
-
 }  // namespace
 }  // namespace onesea::server
