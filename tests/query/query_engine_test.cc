@@ -64,6 +64,8 @@ TEST_F(QueryEngineTest, AgreesWithTheDirectSum) {
   for (std::size_t n = 0; n < points.size(); ++n) {
     const sea::DirectSample exact = Exact(*components, SimTime::FromSeconds(1234.5), points[n]);
     EXPECT_NEAR(static_cast<double>(answer->height_m[n]), exact.height_m, kToleranceM) << n;
+    EXPECT_NEAR(static_cast<double>(answer->height_m[n]), exact.height_m,
+                answer->height_error_bound_m);
     EXPECT_NEAR(static_cast<double>(answer->velocity_m_per_s[3 * n + 2]), exact.velocity_m_per_s.z,
                 0.02)
         << n;
