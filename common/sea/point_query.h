@@ -50,8 +50,8 @@ class SeaSnapshot {
   SimTime time() const;
   QueryDetail detail() const;
 
-  /// out[n] answers points[n]. Finite coordinates only (CHECK). Vectorised over points; allocates
-  /// nothing.
+  /// out[n] answers points[n]. Coordinates within ±1e9 m only (CHECK). Vectorised over points;
+  /// allocates nothing.
   void Sample(std::span<const Vec2d> points, std::span<SurfaceSample> out) const;
 
   /// Bound [m] of |height_m - exact| for unfolded points: bilinear interpolation plus inversion;
