@@ -8,8 +8,8 @@
 namespace onesea::render {
 
 absl::StatusOr<SurfaceGridPass> SurfaceGridPass::Create() {
-  auto program =
-      ShaderProgram::Build({"frame.glsl", "surface_grid.vert.glsl"}, {"surface_grid.frag.glsl"});
+  auto program = ShaderProgram::Build({"frame.glsl", "surface_grid.vert.glsl"},
+                                      {"frame.glsl", "surface_grid.frag.glsl"});
   if (!program.ok()) return program.status();
   return SurfaceGridPass(std::move(*program));
 }

@@ -11,7 +11,7 @@ void main() {
   float low = 1e9, high = -1e9, covered = 0.0;
   for (int n = 0; n < SAMPLES; ++n) {
     vec4 s = texelFetch(surface_map, pixel, n);
-    covered += s.w;
+    covered += s.w > 0.5 ? 1.0 : 0.0;
     low = min(low, s.z);
     high = max(high, s.z);
   }

@@ -32,12 +32,12 @@ vec3 normal_of(Waves w) {
 
 // Straight code on purpose: software rasterisers run both sides of every branch, and a loop that
 // might end early costs them more than what it skips. CASCADES is a constant for the same reason.
-Waves gather(vec2 xy, float distance, vec3 v) {
+Waves gather(vec2 xy, float distance, float stretch) {
   Waves w = Waves(vec2(0.0), vec3(0.0), vec3(0.0), 0.0);
-  float across = distance * ray_forward.w;
-  float cosine = max(v.z, 0.12);
-  // Footprint: the pixel, stretched along the view by up to 1/cosine, filtered by one round kernel.
-  float footprint = log2(across * inversesqrt(cosine * sqrt(cosine)));
+  // Footprint: the pixel, longer along the view than across, filtered by one round kernel between
+  // the two. Beyond some stretch only the faces that look at the eye are seen, and they are not long.
+  stretch = min(stretch, 14.0);
+  float footprint = log2(distance * ray_forward.w) + 0.75 * log2(stretch);
   for (int c = 0; c < CASCADES; ++c) {
     float lod = max(footprint - cascade_map[c].w - 0.3, 0.0);
     vec3 at = vec3(tile_coordinate(c, xy), float(c));
@@ -46,17 +46,12 @@ Waves gather(vec2 xy, float distance, vec3 v) {
     w.slope += slope.xy;
     w.jacobian += vec3(slope.zw, moment.x);
     w.variance += max(moment.yzw - vec3(slope.xy * slope.xy, slope.x * slope.y), vec3(0.0, 0.0, -1.0));
-    if (c == min(1, CASCADES - 1)) {
-      // The long waves tilt the water to the eye or away from it.
-      cosine = clamp(dot(normal_of(w), v) + 0.04, 0.12, 1.0);
-      footprint = log2(across * inversesqrt(cosine * sqrt(cosine)));
-    }
   }
   // A wave of slope s changes J by choppiness times s.
   w.folding = water_leaving.w * water_leaving.w * (w.variance.x + w.variance.y);
   w.variance += fine_variance.xyz;
 #if RIPPLES
-  float ripple_lod = max(footprint - 0.2 * log2(cosine) - ripple_map.w, 0.0);
+  float ripple_lod = max(footprint + 0.15 * log2(stretch) - ripple_map.w, 0.0);
   vec2 at = xy * ripple_map.z + ripple_map.xy;
   w.slope += 0.8 * textureLod(ripple_slope_map, at, ripple_lod).xy;
   // The same tile again, finer and turned: waves of 2.5 cm, and no repetition after 3.7 m.
@@ -147,9 +142,9 @@ Foam foam_at(vec2 xy, Waves w, float fold, float footprint) {
   return Foam(mask, clamp(cover * 0.8, 0.0, 1.0), mix(1.0, 0.72 + 0.5 * fine, froth));
 }
 
-vec3 shade_above(vec2 xy, float distance, vec3 direction) {
+vec3 shade_above(vec2 xy, float distance, float stretch, vec3 direction) {
   vec3 v = -direction;
-  Waves w = gather(xy, distance, v);
+  Waves w = gather(xy, distance, stretch);
   vec3 n = normal_of(w);
   vec2 mean = -n.xy / n.z;
   Facets f = visible_facets(mean, w.variance, v);
@@ -174,7 +169,7 @@ vec3 shade_above(vec2 xy, float distance, vec3 direction) {
   float glow = pinch * (3.0 * back * face * face + 0.25 * max(0.0, dot(n.xy, v.xy)));
   body += crest_radiance.rgb * glow;
 
-  float footprint = distance * ray_forward.w * inversesqrt(max(cosine, 0.12));
+  float footprint = distance * ray_forward.w * sqrt(min(stretch, 14.0));
   Foam foam = foam_at(xy, w, fold, footprint);
   body += foam_irradiance.rgb * foam.bubbles;
 
@@ -189,8 +184,8 @@ vec3 shade_above(vec2 xy, float distance, vec3 direction) {
 
 #if UNDERSIDE
 // Through the surface from below: Snell's window, and outside it the water mirrored.
-vec3 shade_below(vec2 xy, float distance, vec3 direction) {
-  Waves w = gather(xy, distance, vec3(direction.xy, abs(direction.z)));
+vec3 shade_below(vec2 xy, float distance, float stretch, vec3 direction) {
+  Waves w = gather(xy, distance, stretch);
   vec3 n = normal_of(w);
   float cosine = clamp(dot(n, direction), 0.0, 1.0);
   float sine2 = 1.34 * 1.34 * (1.0 - cosine * cosine);
@@ -210,10 +205,12 @@ vec3 shade_below(vec2 xy, float distance, vec3 direction) {
 vec3 shade(vec4 s, vec3 direction) {
 #if UNDERSIDE
   s.z = (s.z < 0.0 ? -1.0 : 1.0) * clamp(abs(s.z), 0.01, 1e5);  // pixels without water, too
-  vec3 above = shade_above(s.xy, abs(s.z), direction), below = shade_below(s.xy, abs(s.z), direction);
+  s.w = max(s.w, 1.0);
+  vec3 above = shade_above(s.xy, abs(s.z), s.w, direction);
+  vec3 below = shade_below(s.xy, abs(s.z), s.w, direction);
   return s.z >= 0.0 ? above : below;
 #else
-  return shade_above(s.xy, s.z, direction);
+  return shade_above(s.xy, s.z, s.w, direction);
 #endif
 }
 
@@ -231,9 +228,10 @@ void main() {
   }
   float covered = 0.0, near_share = 0.0;
   for (int n = 0; n < SAMPLES; ++n) {
-    covered += s[n].w / float(SAMPLES);
+    float share = s[n].w > 0.5 ? 1.0 / float(SAMPLES) : 0.0;
+    covered += share;
     bool is_near = abs(abs(s[n].z) - abs(near.z)) < abs(abs(s[n].z) - abs(far.z));
-    near_share += is_near ? s[n].w / float(SAMPLES) : 0.0;
+    near_share += is_near ? share : 0.0;
   }
   vec3 colour = mix(shade(far, direction), shade(near, direction), near_share / max(covered, 1e-3));
 #if UNDERSIDE
