@@ -200,8 +200,7 @@ void Run(const Options& options) {
   files.rlim_cur = files.rlim_max;
   setrlimit(RLIMIT_NOFILE, &files);
   // Both are forked before the first thread; the idle one costs nothing.
-  constexpr int kPlainFrameBytes =
-      100;  // about what a stamp takes on the wire, acknowledgements included
+  constexpr int kPlainFrameBytes = 64;  // about what a stamp takes on the wire, both ways
   Child plain([&](int port_pipe, int stop_pipe) {
     ServePlainFanout(kPlainFrameBytes, options.every_frame ? kStreamRateHz : 1, port_pipe,
                      stop_pipe);
