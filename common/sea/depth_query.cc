@@ -1,7 +1,7 @@
 // Velocity and pressure below the surface by the direct sum over every wave.
 //
-// Idea: lanes are waves. Wave n of a cascade adds to partial sum n mod 16 whatever the vector width,
-//   and the sixteen are added in one order at the end: the same bits on every SIMD target.
+// Idea: lanes are waves. Wave n of a cascade adds to partial sum n mod 16 whatever the vector
+//   width, and the sixteen are added in one order at the end: the same bits on every SIMD target.
 // Limits: float; phases are integers (2⁻³² turn), so far points and late times lose nothing.
 
 #undef HWY_TARGET_INCLUDE

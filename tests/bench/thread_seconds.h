@@ -13,8 +13,8 @@ inline double ThreadSeconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// CPU seconds of one call: the median of nine batches of at least 10 ms. Thread time does not count what
-/// the neighbours take, except in the caches.
+/// CPU seconds of one call: the median of nine batches of at least 10 ms. Thread time does not
+/// count what the neighbours take, except in the caches.
 template <typename Run>
 double MedianThreadSeconds(const Run& run) {
   run();
