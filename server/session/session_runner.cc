@@ -195,6 +195,7 @@ absl::Status SessionRunner::SetSpeed(double speed, std::int64_t now_ns) {
   if (pace_ == Pace::kLockStep) {
     return absl::FailedPreconditionError("the session is in lock-step and has no speed");
   }
+  if (pace_ != Pace::kRealTime) pacer_.Anchor(session_.tick(), now_ns);  // the old one is long ago
   pacer_.SetSpeed(speed, session_.tick(), now_ns);
   TellChange(now_ns);
   return absl::OkStatus();
