@@ -23,9 +23,9 @@ void SurfaceGridPass::Resize(int width, int height, int samples) {
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(target(), surface_.id());
   if (samples > 1) {
-    glTexImage2DMultisample(target(), samples, GL_RGBA32F, width, height, GL_TRUE);
+    glTexImage2DMultisample(target(), samples, GL_RGBA16F, width, height, GL_TRUE);
   } else {
-    glTexImage2D(target(), 0, GL_RGBA32F, width, height, 0, GL_RGBA, GL_FLOAT, nullptr);
+    glTexImage2D(target(), 0, GL_RGBA16F, width, height, 0, GL_RGBA, GL_FLOAT, nullptr);
     SetSampling(target(), GL_NEAREST, GL_NEAREST, GL_CLAMP_TO_EDGE);
   }
   glBindRenderbuffer(GL_RENDERBUFFER, depth_.id());

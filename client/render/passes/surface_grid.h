@@ -8,7 +8,7 @@
 
 namespace onesea::render {
 
-/// Draws the displaced lattice into a picture of (undisplaced x, y, distance): what the surface
+/// Draws the displaced lattice into a picture of (displacement, distance): what the surface
 /// pass shades once per pixel. Shading here would shade the blocks of each
 /// small triangle anew.
 class SurfaceGridPass {

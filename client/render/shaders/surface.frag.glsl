@@ -202,7 +202,9 @@ vec3 shade_below(vec2 xy, float distance, float stretch, vec3 direction) {
 }
 #endif
 
+// `s` as surface_grid.frag.glsl writes it.
 vec3 shade(vec4 s, vec3 direction) {
+  s.xy = direction.xy * min(abs(s.z), 1e5) - s.xy;
 #if UNDERSIDE
   s.z = (s.z < 0.0 ? -1.0 : 1.0) * clamp(abs(s.z), 0.01, 1e5);  // pixels without water, too
   s.w = max(s.w, 1.0);

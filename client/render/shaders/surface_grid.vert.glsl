@@ -1,6 +1,6 @@
 // Places a vertex of the log-polar lattice on the displaced sea.
 uniform sampler2DArray displacement_map;
-out vec2 undisplaced;   // relative to the eye [m]
+out vec2 displacement;  // horizontal [m]
 out vec3 offset_eye;    // surface point less the eye [m]
 
 void main() {
@@ -28,7 +28,7 @@ void main() {
     moved += vec3(-water_leaving.w * normalize(wave.xy) * sin(phase), cos(phase)) * wave.z;
   }
 
-  undisplaced = xy;
+  displacement = moved.xy;
   vec2 flat_xy = xy + moved.xy;
   float drop = dot(flat_xy, flat_xy) / (2.0 * kEarthRadius);
   vec3 world = vec3(flat_xy, moved.z - drop);
