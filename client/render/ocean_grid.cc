@@ -9,7 +9,7 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kNearestRadiusM = 0.3;
 constexpr int kColumnsMax = 640;
-constexpr int kRowsMax = 224;
+constexpr int kRowsMax = 192;
 // Rows are this much denser than square cells: waves are seen edge on.
 constexpr double kRowDensity = 0.55;
 

@@ -7,9 +7,11 @@ namespace onesea::render {
 absl::StatusOr<ToneMapPass> ToneMapPass::Create() {
   auto down = ShaderProgram::Build({"fullscreen.vert.glsl"}, {"bloom_down.frag.glsl"});
   if (!down.ok()) return down.status();
+  auto up = ShaderProgram::Build({"fullscreen.vert.glsl"}, {"bloom_up.frag.glsl"});
+  if (!up.ok()) return up.status();
   auto map = ShaderProgram::Build({"fullscreen.vert.glsl"}, {"frame.glsl", "tone_map.frag.glsl"});
   if (!map.ok()) return map.status();
-  return ToneMapPass(std::move(*down), std::move(*map));
+  return ToneMapPass(std::move(*down), std::move(*up), std::move(*map));
 }
 
 void ToneMapPass::MakeGlow(const ColorTarget& scene) {
@@ -28,6 +30,15 @@ void ToneMapPass::MakeGlow(const ColorTarget& scene) {
     glDrawArrays(GL_TRIANGLES, 0, 3);
     source = &target;
   }
+  glow_sum_.Resize(glow_[1].width, glow_[1].height, GL_RGBA16F);
+  glow_sum_.Bind();
+  up_.Use();
+  const char* names[] = {"glow0", "glow1", "glow2"};
+  for (int n = 0; n < 3; ++n) {
+    BindTexture(n, GL_TEXTURE_2D, glow_[static_cast<std::size_t>(n + 1)].texture);
+    up_.SetSampler(names[n], n);
+  }
+  glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
 void ToneMapPass::Draw(const VertexArray& empty, const ColorTarget& scene, GLuint framebuffer,
@@ -39,11 +50,8 @@ void ToneMapPass::Draw(const VertexArray& empty, const ColorTarget& scene, GLuin
   map_.Use();
   BindTexture(0, GL_TEXTURE_2D, scene.texture);
   map_.SetSampler("scene", 0);
-  const char* names[] = {"glow0", "glow1", "glow2"};
-  for (int n = 0; n < 3; ++n) {
-    BindTexture(n + 1, GL_TEXTURE_2D, glow_[static_cast<std::size_t>(n + 1)].texture);
-    map_.SetSampler(names[n], n + 1);
-  }
+  BindTexture(1, GL_TEXTURE_2D, glow_sum_.texture);
+  map_.SetSampler("glow", 1);
   glUniform1f(map_.Uniform("glow_share"), bloom ? 0.045f : 0.0f);
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }

@@ -17,11 +17,12 @@ class ToneMapPass {
   void Draw(const VertexArray& empty, const ColorTarget& scene, GLuint framebuffer, bool bloom);
 
  private:
-  ToneMapPass(ShaderProgram down, ShaderProgram map)
-      : down_(std::move(down)), map_(std::move(map)) {}
+  ToneMapPass(ShaderProgram down, ShaderProgram up, ShaderProgram map)
+      : down_(std::move(down)), up_(std::move(up)), map_(std::move(map)) {}
   void MakeGlow(const ColorTarget& scene);
 
-  ShaderProgram down_, map_;
+  ShaderProgram down_, up_, map_;
+  ColorTarget glow_sum_;
   std::array<ColorTarget, 4> glow_;  // a quarter of the scene, an eighth, ...
 };
 

@@ -1,8 +1,6 @@
 // Radiance to display: exposure, glow, a filmic curve that bleaches highlights, sRGB, dither.
 uniform sampler2D scene;
-uniform sampler2D glow0;
-uniform sampler2D glow1;
-uniform sampler2D glow2;
+uniform sampler2D glow;
 uniform float glow_share;
 in vec2 picture;
 out vec4 colour;
@@ -32,11 +30,8 @@ float noise(vec2 at) { return fract(52.9829189 * fract(dot(at, vec2(0.06711056, 
 
 void main() {
   vec2 at = 0.5 * picture + 0.5;
-  vec3 x = texture(scene, at).rgb;
-  if (glow_share > 0.0) {
-    vec3 glow = 0.45 * texture(glow0, at).rgb + 0.33 * texture(glow1, at).rgb + 0.22 * texture(glow2, at).rgb;
-    x = mix(x, glow, glow_share);
-  }
+  vec3 x = texelFetch(scene, ivec2(gl_FragCoord.xy), 0).rgb;
+  x = mix(x, texture(glow, at).rgb, glow_share);
   x *= sun_irradiance.w * kDaylight;
   vec3 y = to_srgb(filmic(x));
   float dither = noise(gl_FragCoord.xy) - 0.5;
