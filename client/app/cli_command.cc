@@ -114,7 +114,7 @@ absl::Status RunCommand(const CliCommand& command, const Arguments& arguments,
                            .session = arguments.Get("session").value_or(""),
                            .json = arguments.Has("json"),
                            .out = out};
-  const absl::Status status = command.run(context, arguments);
+  absl::Status status = command.run(context, arguments);
   if (!absl::IsUnavailable(status)) return status;
   return absl::UnavailableError(absl::StrFormat(
       "no server answers at %s; start one with onesea-server, or name another with --server",

@@ -12,7 +12,8 @@ namespace onesea::app {
 /// one line.
 ///
 ///   JsonWriter json;
-///   json.BeginObject().Key("hs_m").Value(4.71).Key("points").BeginArray().Value(1).EndArray().EndObject();
+///   json.BeginObject().Key("hs_m").Value(4.71);
+///   json.Key("points").BeginArray().Value(1).EndArray().EndObject();
 ///   json.text()  // {"hs_m":4.71,"points":[1]}
 ///
 /// Numbers are the shortest text that reads back as the same double; NaN and infinities, which JSON

@@ -34,8 +34,8 @@ class StreamQueriesReactor final
  private:
   void Take(wire::QueryRequest request);
   void Enqueue(const wire::QueryAnswer& answer, bool was_posted);
-  // Starts what can be started. True: the call is over, and the caller is to Finish() it after giving
-  // the lock back, since the reactor may be deleted from then on.
+  // Starts what can be started. True: the call is over, and the caller is to Finish() it after
+  // giving the lock back, since the reactor may be deleted from then on.
   [[nodiscard]] bool GoOn() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   void FinishIf(bool over) {
     if (over) Finish(grpc::Status::OK);

@@ -1,4 +1,5 @@
-// A server whose components hash differently, as one of another release would: nobody here may draw its sea.
+// A server whose components hash differently, as one of another release would: nobody here may
+// draw its sea.
 
 #include <gmock/gmock.h>
 #include <grpcpp/security/server_credentials.h>
