@@ -147,7 +147,6 @@ void FillWaves(const RenderFrame& frame, const std::vector<SlopeStats>& stats, F
         TileMap(eye, planes.length_m, planes.rotation_rad, planes.length_m / planes.grid_size);
     block.cascade_turn[c] =
         Pack(std::cos(planes.rotation_rad), std::sin(planes.rotation_rad), 0, 0);
-    block.cascade_stats[c] = Pack(stats[c].xx, stats[c].yy, stats[c].xy, 0);
     height_variance += stats[c].height_variance_m2;
   }
   const std::size_t regular =

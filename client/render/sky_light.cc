@@ -14,7 +14,7 @@ constexpr int kColumns = SkyLight::kColumns, kRows = SkyLight::kRows;
 constexpr double kMeteredRadiance = 0.42;
 constexpr double kBrightMax = 1.1;
 // Thick cloud is neutral once the film is balanced for sun and blue sky together.
-const glm::vec3 kCloudTint(0.98f, 1.0f, 0.94f);
+const glm::vec3 kCloudTint(0.975f, 1.0f, 0.99f);
 // Airglow and stars, so that a moonless night is dark and not black.
 const glm::vec3 kNightRadiance(0.9e-6f, 1.2e-6f, 2.0e-6f);
 const glm::vec3 kLuminance(0.2126f, 0.7152f, 0.0722f);
