@@ -29,8 +29,8 @@ std::shared_ptr<const sea::SeaSnapshot> SnapshotCache::Find(SimTime time, sea::Q
   return nullptr;
 }
 
-// Moves the least recently used snapshot out, so that the builder, as its only owner, can write into
-// its storage; null while somebody still holds it.
+// Moves the least recently used snapshot out, so that the builder, as its only owner, can write
+// into its storage; null while somebody still holds it.
 std::shared_ptr<const sea::SeaSnapshot> SnapshotCache::TakeOldest() {
   std::shared_ptr<const sea::SeaSnapshot> taken;
   {
