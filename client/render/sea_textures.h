@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "client/render/gl_objects.h"
@@ -32,11 +31,7 @@ class SeaTextures {
 
   Texture displacement_, slope_, moment_;
   int grid_size_ = 0, layers_ = 0;
-  std::vector<std::uint16_t> texels_;
+  std::vector<float> texels_;  // one layer; the driver makes halves of them, faster than we could
 };
-
-/// IEEE half-precision bits of `value`, rounded to nearest; beyond ±65504 saturates. Branch-free,
-/// so that compilers vectorise loops over it; below 6e-5 rounds to a multiple of 6e-8.
-std::uint16_t HalfBits(float value);
 
 }  // namespace onesea::render

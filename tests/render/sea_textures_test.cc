@@ -1,7 +1,6 @@
 #include "client/render/sea_textures.h"
 
 #include <cmath>
-#include <glm/gtc/packing.hpp>
 
 #include "client/render/frame_block.h"
 #include "tests/render/gl_fixture.h"
@@ -9,18 +8,6 @@
 
 namespace onesea::render {
 namespace {
-
-TEST(HalfBits, RoundsAsGlmDoes) {
-  for (float value = 1e-9f; value < 60000.0f; value *= 1.003f) {
-    for (float sign : {-1.0f, 1.0f}) {
-      const float back = glm::unpackHalf1x16(HalfBits(sign * value));
-      // Half a unit in the last place: 2^-11 relative, 2^-25 below the smallest normal number.
-      EXPECT_NEAR(back, sign * value, std::max(value * 0x1p-11f, 0x1p-25f)) << value;
-    }
-  }
-  EXPECT_EQ(HalfBits(0.0f), 0);
-  EXPECT_EQ(glm::unpackHalf1x16(HalfBits(1e9f)), 65504.0f);
-}
 
 class SeaTexturesTest : public GlTest {};
 
