@@ -2,8 +2,6 @@
 // in a process of its own, then as many plain sockets with frames of the same size. With --query
 // also the latency of 100-point queries on one stream while the viewers are served.
 //
-//   fanout_bench [--viewers=500] [--seconds=5] [--shards=1] [--every_frame=1] [--query=1]
-//
 // Server and viewers share the machine's cores. Loopback only; at most 4000 viewers and 60 seconds.
 #include <poll.h>
 #include <sys/resource.h>
@@ -13,12 +11,14 @@
 #include <atomic>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <random>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "absl/flags/flag.h"
+#include "absl/flags/parse.h"
+#include "absl/flags/usage.h"
 #include "absl/strings/str_cat.h"
 #include "client/net/remote_server.h"
 #include "common/base/check.h"
@@ -30,6 +30,12 @@
 #include "tests/bench/light_viewer.h"
 #include "tests/bench/plain_fanout.h"
 
+ABSL_FLAG(int, viewers, 500, "Viewers, [1, 4000]");
+ABSL_FLAG(int, seconds, 5, "How long to measure, [1, 60]");
+ABSL_FLAG(int, shards, 1, "Threads of the server that send, [1, 64]");
+ABSL_FLAG(bool, every_frame, true, "30 frames a second; otherwise a stamp a second");
+ABSL_FLAG(bool, query, true, "Also 100-point queries while the viewers are served");
+
 namespace onesea::bench {
 namespace {
 
@@ -37,29 +43,19 @@ constexpr int kStreamRateHz = 30;
 constexpr int kQueryPoints = 100;
 
 struct Options {
-  int viewers = 500;
-  int seconds = 5;
-  int shards = 1;
-  bool every_frame = true;
-  bool query = true;
+  int viewers;
+  int seconds;
+  int shards;
+  bool every_frame;
+  bool query;
 };
 
-int IntOf(const char* argument, const char* name, int fallback, int least, int most) {
-  const std::size_t size = std::strlen(name);
-  if (std::strncmp(argument, name, size) != 0) return fallback;
-  return std::clamp(std::atoi(argument + size), least, most);
-}
-
-Options Parse(int argc, char** argv) {
-  Options options;
-  for (int n = 1; n < argc; ++n) {
-    options.viewers = IntOf(argv[n], "--viewers=", options.viewers, 1, 4000);
-    options.seconds = IntOf(argv[n], "--seconds=", options.seconds, 1, 60);
-    options.shards = IntOf(argv[n], "--shards=", options.shards, 1, 64);
-    options.every_frame = IntOf(argv[n], "--every_frame=", options.every_frame, 0, 1) != 0;
-    options.query = IntOf(argv[n], "--query=", options.query, 0, 1) != 0;
-  }
-  return options;
+Options FromFlags() {
+  return {.viewers = std::clamp(absl::GetFlag(FLAGS_viewers), 1, 4000),
+          .seconds = std::clamp(absl::GetFlag(FLAGS_seconds), 1, 60),
+          .shards = std::clamp(absl::GetFlag(FLAGS_shards), 1, 64),
+          .every_frame = absl::GetFlag(FLAGS_every_frame),
+          .query = absl::GetFlag(FLAGS_query)};
 }
 
 void ServeSea(int shards, int port_pipe, int stop_pipe) {
@@ -218,6 +214,9 @@ void Run(const Options& options) {
 }  // namespace onesea::bench
 
 int main(int argc, char** argv) {
-  onesea::bench::Run(onesea::bench::Parse(argc, argv));
+  absl::SetProgramUsageMessage(
+      "What a viewer costs, beside plain sockets in the same run. Loopback only.");
+  absl::ParseCommandLine(argc, argv);
+  onesea::bench::Run(onesea::bench::FromFlags());
   return 0;
 }

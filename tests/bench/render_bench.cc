@@ -12,11 +12,16 @@
 #include <cstdlib>
 #include <vector>
 
+#include "absl/flags/flag.h"
+#include "absl/flags/parse.h"
+#include "absl/flags/usage.h"
 #include "client/render/gl_objects.h"
 #include "client/render/offscreen_context.h"
 #include "client/render/renderer.h"
 #include "common/base/clock.h"
 #include "tests/render/test_sea.h"
+
+ABSL_FLAG(int, frames, 12, "Pictures per size; the first is left out");
 
 namespace onesea::render {
 namespace {
@@ -94,5 +99,7 @@ int Main(int frames) {
 }  // namespace onesea::render
 
 int main(int argc, char** argv) {
-  return onesea::render::Main(argc > 1 ? std::max(1, std::atoi(argv[1])) : 12);
+  absl::SetProgramUsageMessage("What a picture costs, pass by pass.");
+  absl::ParseCommandLine(argc, argv);
+  return onesea::render::Main(std::max(1, absl::GetFlag(FLAGS_frames)));
 }

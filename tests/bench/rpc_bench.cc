@@ -13,6 +13,8 @@
 #include <string>
 #include <vector>
 
+#include "absl/flags/parse.h"
+#include "absl/flags/usage.h"
 #include "absl/strings/str_cat.h"
 #include "common/base/check.h"
 #include "common/base/clock.h"
@@ -155,4 +157,9 @@ int Main() {
 }  // namespace
 }  // namespace onesea
 
-int main() { return onesea::Main(); }
+int main(int argc, char** argv) {
+  absl::SetProgramUsageMessage(
+      "What an RPC query costs beside an empty call and an echo. No options.");
+  absl::ParseCommandLine(argc, argv);
+  return onesea::Main();
+}
