@@ -34,6 +34,7 @@ void WriteSession(const SessionInfo& info, JsonWriter& json) {
   json.Key("tick_rate_hz").Value(info.tick_rate_hz).Key("hs_m").Value(info.hs_m);
   json.Key("viewer_count").Value(info.viewer_count);
   json.Key("component_hash").Value(absl::StrFormat("%016x", info.component_hash));
+  json.Key("transform").Value(info.transform);
   json.EndObject();
 }
 

@@ -11,6 +11,7 @@
 #include <cstdlib>
 
 #include "common/base/hash.h"
+#include "common/base/limits.h"
 #include "common/sea/fft_strip.h"
 
 namespace onesea::sea {
@@ -38,8 +39,28 @@ class PlannerLock {
   }
 };
 
+// Hash of the wisdom in use, 0: none. Written before the first plan (UseWisdom's contract).
+std::atomic<std::uint64_t> wisdom_hash = 0;
+
 // Powers of two as row strides share few cache sets: FFTW is 20-30 % faster on padded rows.
 constexpr int kRowPadding = 8;
+
+int PitchFor(int grid_size) { return grid_size + kRowPadding; }
+
+fftwf_complex* AllocateGrid(int grid_size) {
+  fftwf_complex* grid =
+      fftwf_alloc_complex(static_cast<std::size_t>(grid_size) * PitchFor(grid_size));
+  ONESEA_CHECK(grid != nullptr) << "out of memory";
+  return grid;
+}
+
+// Null if `flags` ask for wisdom that is not there.
+fftwf_plan MakePlan(int grid_size, fftwf_complex* grid, unsigned flags) {
+  const int sizes[2] = {grid_size, grid_size};
+  const int padded[2] = {grid_size, PitchFor(grid_size)};
+  return fftwf_plan_many_dft(2, sizes, 1, grid, padded, 1, 0, grid, padded, 1, 0, FFTW_BACKWARD,
+                             flags);
+}
 
 }  // namespace
 
@@ -54,29 +75,46 @@ struct FftwTransform::Impl {
 bool FftwTransform::Available() { return true; }
 
 std::string FftwTransform::Name() {
-  // No wisdom is stored: what FFTW_ESTIMATE chooses depends on the library and the instruction set
-  // alone. The exported wisdom stands for both.
-  PlannerLock lock;
-  char* wisdom = fftwf_export_wisdom_to_string();
-  Hash64 hash;
-  if (wisdom != nullptr) hash.Add(std::string_view(wisdom));
-  std::free(wisdom);
+  const std::uint64_t hash = wisdom_hash.load();
+  if (hash == 0) return std::string(fftwf_version) + " estimate";
   char text[32];
-  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash.value()));
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
   return std::string(fftwf_version) + " wisdom " + text;
+}
+
+std::string FftwTransform::MeasureWisdom(int grid_size_max) {
+  PlannerLock lock;
+  for (int n = kGridSizeMin; n <= grid_size_max; n *= 2) {
+    fftwf_complex* grid = AllocateGrid(n);
+    fftwf_destroy_plan(MakePlan(n, grid, FFTW_PATIENT));
+    fftwf_free(grid);
+  }
+  char* wisdom = fftwf_export_wisdom_to_string();
+  ONESEA_CHECK(wisdom != nullptr) << "out of memory";
+  std::string text = wisdom;
+  std::free(wisdom);
+  return text;
+}
+
+absl::Status FftwTransform::UseWisdom(const std::string& wisdom) {
+  PlannerLock lock;
+  if (fftwf_import_wisdom_from_string(wisdom.c_str()) == 0) {
+    return absl::InvalidArgumentError(std::string("is no wisdom of ") + fftwf_version +
+                                      "; measure it anew on this machine");
+  }
+  Hash64 hash;
+  hash.Add(std::string_view(wisdom));
+  wisdom_hash = hash.value();
+  return absl::OkStatus();
 }
 
 FftwTransform::FftwTransform(int grid_size, int index_max) : impl_(std::make_unique<Impl>()) {
   PlannerLock lock;
-  const int pitch = grid_size + kRowPadding;
-  fftwf_complex* grid = fftwf_alloc_complex(static_cast<std::size_t>(grid_size) * pitch);
-  ONESEA_CHECK(grid != nullptr) << "out of memory";
-  const int sizes[2] = {grid_size, grid_size};
-  const int padded[2] = {grid_size, pitch};
-  fftwf_plan plan = fftwf_plan_many_dft(2, sizes, 1, grid, padded, 1, 0, grid, padded, 1, 0,
-                                        FFTW_BACKWARD, FFTW_ESTIMATE);
+  fftwf_complex* grid = AllocateGrid(grid_size);
+  fftwf_plan plan = MakePlan(grid_size, grid, FFTW_PATIENT | FFTW_WISDOM_ONLY);
+  if (plan == nullptr) plan = MakePlan(grid_size, grid, FFTW_ESTIMATE);
   ONESEA_CHECK(plan != nullptr) << "FFTW made no plan for " << grid_size;
-  *impl_ = {grid_size, index_max, pitch, grid, plan};
+  *impl_ = {grid_size, index_max, PitchFor(grid_size), grid, plan};
 }
 
 FftwTransform::~FftwTransform() {
@@ -121,6 +159,10 @@ struct FftwTransform::Impl {};
 
 bool FftwTransform::Available() { return false; }
 std::string FftwTransform::Name() { return {}; }
+std::string FftwTransform::MeasureWisdom(int) { return {}; }
+absl::Status FftwTransform::UseWisdom(const std::string&) {
+  return absl::UnimplementedError("this program was built without FFTW");
+}
 FftwTransform::FftwTransform(int, int) { ONESEA_CHECK(false) << "built without ONESEA_WITH_FFTW"; }
 FftwTransform::~FftwTransform() = default;
 void FftwTransform::Inverse(const float*, const float*, float*, float*) {}

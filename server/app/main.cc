@@ -20,6 +20,8 @@
 #include "absl/strings/strip.h"
 #include "common/base/check.h"
 #include "common/base/fp_env.h"
+#include "common/base/limits.h"
+#include "common/sea/fft_fftw.h"
 #include "common/wire/session_file.h"
 #include "server/app/default_session.h"
 #include "server/app/listen_address.h"
@@ -35,6 +37,11 @@ ABSL_FLAG(bool, insecure_public, false,
           "is asked who they are");
 ABSL_FLAG(std::string, transform, "own",
           "Fourier transform of probes and queries: own (same bits on every machine) or fftw");
+ABSL_FLAG(
+    std::string, fftw_wisdom, "",
+    "File with FFTW's stored plans, for --transform=fftw; its hash goes into the session's record");
+ABSL_FLAG(std::string, measure_fftw_wisdom, "",
+          "Measure FFTW's best plans on this machine, write them to this file and exit");
 ABSL_FLAG(std::string, log_level, "info", "trace, debug, info, warn, error or off");
 ABSL_FLAG(int, watch_threads, 0,
           "Threads that send frames to viewers; 0: one less than the machine's cores");
@@ -92,6 +99,27 @@ absl::StatusOr<sea::TransformKind> TransformFlag() {
   return absl::InvalidArgumentError(absl::StrCat("--transform=", name, ": is not own or fftw"));
 }
 
+absl::Status MeasureFftwWisdom(const std::string& path) {
+  if (!sea::TransformAvailable(sea::TransformKind::kFftw)) {
+    return absl::InvalidArgumentError("--measure_fftw_wisdom: this program was built without FFTW");
+  }
+  std::cerr << "measuring FFTW's plans up to " << kGridSizeMax << " x " << kGridSizeMax
+            << ": about a minute ..." << std::endl;
+  std::ofstream file(path);
+  file << sea::FftwTransform::MeasureWisdom(kGridSizeMax);
+  file.close();
+  if (!file) return absl::PermissionDeniedError(path + ": can't be written");
+  return absl::OkStatus();
+}
+
+absl::Status UseFftwWisdom(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) return absl::NotFoundError(absl::StrCat("--fftw_wisdom=", path, ": can't be read"));
+  const std::string text((std::istreambuf_iterator<char>(file)), {});
+  const absl::Status status = sea::FftwTransform::UseWisdom(text);
+  return absl::Status(status.code(), status.ok() ? "" : absl::StrCat(path, ": ", status.message()));
+}
+
 absl::Status SetLogLevel(const std::string& name) {
   const spdlog::level::level_enum level = spdlog::level::from_str(name);
   if (level == spdlog::level::off && name != "off") {  // what from_str makes of unknown names
@@ -145,6 +173,9 @@ absl::Status Serve(const sigset_t& stop_signals) {
   if (const absl::Status fp = CheckFpEnvironment(); !fp.ok()) {
     spdlog::warn("other machines may compute another sea: {}", std::string(fp.message()));
   }
+  if (const std::string wisdom = absl::GetFlag(FLAGS_fftw_wisdom); !wisdom.empty()) {
+    ONESEA_RETURN_IF_ERROR(UseFftwWisdom(wisdom));
+  }
   Registry registry(SystemClock(), transform);
   ONESEA_ASSIGN_OR_RETURN(const std::string sessions, CreateSessions(registry));
   ONESEA_ASSIGN_OR_RETURN(const std::unique_ptr<RpcServer> server,
@@ -163,6 +194,12 @@ absl::Status Serve(const sigset_t& stop_signals) {
   return absl::OkStatus();
 }
 
+absl::Status Run(const sigset_t& stop_signals) {
+  if (absl::GetFlag(FLAGS_print_default_session)) return PrintDefaultSession();
+  const std::string wisdom_path = absl::GetFlag(FLAGS_measure_fftw_wisdom);
+  return wisdom_path.empty() ? Serve(stop_signals) : MeasureFftwWisdom(wisdom_path);
+}
+
 int Main(int argc, char** argv) {
   ParseFlags(argc, argv);
   spdlog::set_default_logger(spdlog::stderr_color_mt("onesea-server"));
@@ -179,8 +216,7 @@ int Main(int argc, char** argv) {
   sigaddset(&stop_signals, SIGTERM);
   pthread_sigmask(SIG_BLOCK, &stop_signals, nullptr);
 
-  const absl::Status status =
-      absl::GetFlag(FLAGS_print_default_session) ? PrintDefaultSession() : Serve(stop_signals);
+  const absl::Status status = Run(stop_signals);
   if (status.ok()) return 0;
   std::fprintf(stderr, "onesea-server: %s\n", std::string(status.message()).c_str());
   return 1;
