@@ -137,12 +137,13 @@ void Renderer::Draw(const RenderFrame& frame, int width, int height, unsigned fr
   for (const RegularWaveNow& wave : frame.regular_waves) displacement_max_m += wave.amplitude_m;
   const OceanGrid grid = FitOceanGrid(frame.camera, width, height, frame.quality.pixels_per_column,
                                       displacement_max_m);
-  r.UploadBlock(MakeFrameBlock(frame, r.light, grid, stats, r.ripples.stats(), RipplePass::kLengthM,
-                               width, height));
+  const FrameBlock block = MakeFrameBlock(frame, r.light, grid, stats, r.ripples.stats(),
+                                          RipplePass::kLengthM, width, height);
+  r.UploadBlock(block);
   r.scene.Resize(width, height, GL_RGBA16F);
   r.Pass("geometry", [&] { r.grid.Draw(grid, r.sea, width, height, frame.quality.samples); });
   r.Pass("classify", [&] { r.classify.Draw(r.empty, r.scene, r.grid); });
-  r.Pass("sky", [&] { r.sky.Draw(r.empty, r.scene); });
+  r.Pass("sky", [&] { r.sky.Draw(r.empty, r.scene, block); });
   r.Pass("surface", [&] {
     SurfaceVariant variant;
     variant.underside = frame.camera.position_m.z < displacement_max_m;

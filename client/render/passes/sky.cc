@@ -1,18 +1,39 @@
 #include "client/render/passes/sky.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "client/render/foam_texture.h"
 #include "client/render/passes/classify.h"
 
 namespace onesea::render {
+namespace {
 
-absl::StatusOr<SkyPass> SkyPass::Create() {
-  auto program =
-      ShaderProgram::Build({"fullscreen.vert.glsl"}, {"frame.glsl", "sky.glsl", "sky.frag.glsl"});
-  if (!program.ok()) return program.status();
-  return SkyPass(std::move(*program));
+// The lowest row of `rows` that can show sky: the horizon of a round sea is less than 0.05 below
+// level for any eye under 8 km.
+int LowestSkyRow(const FrameBlock& block, int rows) {
+  constexpr float kBelowLevel = 0.05f;
+  if (!(block.ray_up.z > 0.1f * std::abs(block.ray_right.z))) return 0;
+  const float low =
+      (-kBelowLevel - block.ray_forward.z - std::abs(block.ray_right.z)) / block.ray_up.z;
+  const float row = (0.5f + 0.5f * std::clamp(low, -1.0f, 1.0f)) * static_cast<float>(rows);
+  return std::max(0, static_cast<int>(row) - 2);
 }
 
-SkyPass::SkyPass(ShaderProgram program) : program_(std::move(program)) {
+}  // namespace
+
+absl::StatusOr<SkyPass> SkyPass::Create() {
+  auto sky =
+      ShaderProgram::Build({"fullscreen.vert.glsl"}, {"frame.glsl", "sky.glsl", "sky.frag.glsl"});
+  if (!sky.ok()) return sky.status();
+  auto place =
+      ShaderProgram::Build({"fullscreen.vert.glsl"}, {"frame.glsl", "sky_place.frag.glsl"});
+  if (!place.ok()) return place.status();
+  return SkyPass(std::move(*sky), std::move(*place));
+}
+
+SkyPass::SkyPass(ShaderProgram sky, ShaderProgram place)
+    : sky_(std::move(sky)), place_(std::move(place)) {
   constexpr int kCloudSize = 512;
   const std::vector<std::uint8_t> clouds = MakeCloudTexture(kCloudSize);
   BindTexture(0, GL_TEXTURE_2D, clouds_);
@@ -32,15 +53,26 @@ void SkyPass::SetLight(const SkyLight& light) {
   glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_WRAP_R, GL_CLAMP_TO_EDGE);
 }
 
-void SkyPass::Draw(const VertexArray& empty, const ColorTarget& scene) {
-  scene.Bind();
-  program_.Use();
+void SkyPass::Draw(const VertexArray& empty, const ColorTarget& scene, const FrameBlock& block) {
+  small_.Resize((scene.width + 1) / 2, (scene.height + 1) / 2, GL_RGBA16F);
+  small_.Bind();
+  sky_.Use();
   BindTexture(0, GL_TEXTURE_3D, map_);
-  program_.SetSampler("sky_map", 0);
+  sky_.SetSampler("sky_map", 0);
   BindTexture(1, GL_TEXTURE_2D, clouds_);
-  program_.SetSampler("cloud_map", 1);
-  ClassifyPass::ChooseSkyAndEdges(program_);
+  sky_.SetSampler("cloud_map", 1);
+  const int lowest = LowestSkyRow(block, small_.height);
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(0, lowest, small_.width, small_.height - lowest);
   glBindVertexArray(empty.id());
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glDisable(GL_SCISSOR_TEST);
+
+  scene.Bind();
+  place_.Use();
+  BindTexture(0, GL_TEXTURE_2D, small_.texture);
+  place_.SetSampler("small_sky", 0);
+  ClassifyPass::ChooseSkyAndEdges(place_);
   glDrawArrays(GL_TRIANGLES, 0, 3);
   ClassifyPass::ChooseAll();
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "absl/status/statusor.h"
+#include "client/render/frame_block.h"
 #include "client/render/gl_objects.h"
 #include "client/render/shader_program.h"
 #include "client/render/sky_light.h"
@@ -13,15 +14,16 @@ class SkyPass {
   static absl::StatusOr<SkyPass> Create();
 
   void SetLight(const SkyLight& light);
-  /// Where ClassifyPass left sky and edges.
-  void Draw(const VertexArray& empty, const ColorTarget& scene);
+  /// Where ClassifyPass left sky and edges. `block` is what the shaders see of it.
+  void Draw(const VertexArray& empty, const ColorTarget& scene, const FrameBlock& block);
 
   const Texture& map() const { return map_; }
   const Texture& clouds() const { return clouds_; }
 
  private:
-  explicit SkyPass(ShaderProgram program);
-  ShaderProgram program_;
+  SkyPass(ShaderProgram sky, ShaderProgram place);
+  ShaderProgram sky_, place_;
+  ColorTarget small_;
   Texture map_, clouds_;
 };
 

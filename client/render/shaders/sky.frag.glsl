@@ -1,4 +1,5 @@
-// The sky where no water covers it: clear air, a thin layer of broken clouds, the sun's disc.
+// Clear air and a thin layer of broken clouds, at half the picture's size: nothing in them is sharp.
+// Alpha is what the clouds let through.
 uniform sampler2D cloud_map;
 in vec2 picture;
 out vec4 radiance;
@@ -35,18 +36,8 @@ vec4 clouds(vec3 direction) {
   return vec4(mix(sky_at(direction, 0.1), colour, far), opacity);
 }
 
-vec3 sun_disc(vec3 direction) {
-  // Small angles: the chord is the angle. The edge is a pixel wide.
-  float angle = length(direction - sun_direction.xyz);
-  float radius = max(0.00465, 1.2 * ray_forward.w);
-  float inside = 1.0 - smoothstep(radius - ray_forward.w, radius + ray_forward.w, angle);
-  float limb = sqrt(max(0.1, 1.0 - angle * angle / (radius * radius)));
-  return inside * min(sun_irradiance.rgb / (kPi * 0.00465 * 0.00465) * limb, vec3(3000.0));
-}
-
 void main() {
   vec3 direction = picture_ray(picture);
   vec4 cloud = clouds(vec3(direction.xy, max(direction.z, 0.003)));
-  vec3 colour = sky_at(direction, 0.0) + sun_disc(direction);
-  radiance = vec4(min(mix(colour, cloud.rgb, cloud.a), vec3(60000.0)), 1.0);
+  radiance = vec4(mix(sky_at(direction, 0.0), cloud.rgb, cloud.a), 1.0 - cloud.a);
 }
