@@ -141,9 +141,10 @@ void Renderer::Draw(const RenderFrame& frame, int width, int height, unsigned fr
                                           RipplePass::kLengthM, width, height);
   r.UploadBlock(block);
   r.scene.Resize(width, height, GL_RGBA16F);
+  r.Pass("small sky", [&] { r.sky.DrawSmall(r.empty, block, width, height); });
   r.Pass("geometry", [&] { r.grid.Draw(grid, r.sea, width, height, frame.quality.samples); });
   r.Pass("classify", [&] { r.classify.Draw(r.empty, r.scene, r.grid); });
-  r.Pass("sky", [&] { r.sky.Draw(r.empty, r.scene, block); });
+  r.Pass("sky", [&] { r.sky.Place(r.empty, r.scene); });
   r.Pass("surface", [&] {
     SurfaceVariant variant;
     variant.underside = frame.camera.position_m.z < displacement_max_m;

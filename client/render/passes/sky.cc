@@ -53,8 +53,10 @@ void SkyPass::SetLight(const SkyLight& light) {
   glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_WRAP_R, GL_CLAMP_TO_EDGE);
 }
 
-void SkyPass::Draw(const VertexArray& empty, const ColorTarget& scene, const FrameBlock& block) {
-  small_.Resize((scene.width + 1) / 2, (scene.height + 1) / 2, GL_RGBA16F);
+void SkyPass::DrawSmall(const VertexArray& empty, const FrameBlock& block, int width, int height) {
+  // Clouds are drawn out along the horizon: only tall pictures can spare half of their rows.
+  constexpr int kTallRows = 540;
+  small_.Resize((width + 1) / 2, height < kTallRows ? height : (height + 1) / 2, GL_RGBA16F);
   small_.Bind();
   sky_.Use();
   BindTexture(0, GL_TEXTURE_3D, map_);
@@ -67,12 +69,15 @@ void SkyPass::Draw(const VertexArray& empty, const ColorTarget& scene, const Fra
   glBindVertexArray(empty.id());
   glDrawArrays(GL_TRIANGLES, 0, 3);
   glDisable(GL_SCISSOR_TEST);
+}
 
+void SkyPass::Place(const VertexArray& empty, const ColorTarget& scene) {
   scene.Bind();
   place_.Use();
   BindTexture(0, GL_TEXTURE_2D, small_.texture);
   place_.SetSampler("small_sky", 0);
   ClassifyPass::ChooseSkyAndEdges(place_);
+  glBindVertexArray(empty.id());
   glDrawArrays(GL_TRIANGLES, 0, 3);
   ClassifyPass::ChooseAll();
 }

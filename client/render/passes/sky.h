@@ -14,8 +14,11 @@ class SkyPass {
   static absl::StatusOr<SkyPass> Create();
 
   void SetLight(const SkyLight& light);
-  /// Where ClassifyPass left sky and edges. `block` is what the shaders see of it.
-  void Draw(const VertexArray& empty, const ColorTarget& scene, const FrameBlock& block);
+  /// Air and clouds for a picture of this size; `block` as the shaders see it. Needs nothing of the
+  /// sea: drawn before the lattice, a software rasteriser fills it while vertices are placed.
+  void DrawSmall(const VertexArray& empty, const FrameBlock& block, int width, int height);
+  /// Puts them where ClassifyPass left sky and edges.
+  void Place(const VertexArray& empty, const ColorTarget& scene);
 
   const Texture& map() const { return map_; }
   const Texture& clouds() const { return clouds_; }

@@ -53,7 +53,7 @@ SurfacePass::SurfacePass() {
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   glTexImage2D(GL_TEXTURE_2D, 0, GL_R8, kFoamTextureSize, kFoamTextureSize, 0, GL_RED,
                GL_UNSIGNED_BYTE, foam.data());
-  SetSampling(GL_TEXTURE_2D, GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR, GL_REPEAT);
+  SetSampling(GL_TEXTURE_2D, GL_LINEAR_MIPMAP_NEAREST, GL_LINEAR, GL_REPEAT);
   glGenerateMipmap(GL_TEXTURE_2D);
   // A window of one dark cell until there is foam: samplers must always have a texture.
   constexpr std::uint8_t kNone = 0;
@@ -68,7 +68,7 @@ void SurfacePass::SetFoamWindow(const FoamCells& foam) {
     window_side_ = foam.side;
     glTexImage2D(GL_TEXTURE_2D, 0, GL_R8, foam.side, foam.side, 0, GL_RED, GL_UNSIGNED_BYTE,
                  foam.cells.data());
-    SetSampling(GL_TEXTURE_2D, GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR, GL_REPEAT);
+    SetSampling(GL_TEXTURE_2D, GL_LINEAR_MIPMAP_NEAREST, GL_LINEAR, GL_REPEAT);
   } else {
     glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, foam.side, foam.side, GL_RED, GL_UNSIGNED_BYTE,
                     foam.cells.data());

@@ -1,4 +1,4 @@
-// Clear air and a thin layer of broken clouds, at half the picture's size: nothing in them is sharp.
+// Clear air and a thin layer of broken clouds, in fewer pixels than the picture has: nothing in them is sharp.
 // Alpha is what the clouds let through.
 uniform sampler2D cloud_map;
 in vec2 picture;

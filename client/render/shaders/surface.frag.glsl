@@ -122,9 +122,10 @@ Foam foam_at(vec2 xy, Waves w, float fold, float footprint) {
   float lace = textureLod(foam_map, at, detail_lod).r;
   float fine = textureLod(foam_map, mat2(0.8, 0.6, -0.6, 0.8) * at * 2.7, detail_lod + 1.43).r;
   // Far away the tile's own lace is too small to see, and one five times as large takes over.
-  float coarse = textureLod(foam_map, mat2(0.6, 0.8, -0.8, 0.6) * at * 0.21, max(detail_lod - 2.25, 0.0)).r;
+  float coarse = textureLod(foam_map, mat2(0.6, 0.8, -0.8, 0.6) * at * 0.21, max(detail_lod - 1.75, 0.0)).r;
 
-  float window_lod = max(log2(footprint * foam_window.z * float(textureSize(foam_window_map, 0).x)), 0.0);
+  // Never the finest level: patches thin out over some metres, not from cell to cell.
+  float window_lod = max(log2(footprint * foam_window.z * float(textureSize(foam_window_map, 0).x)), 1.0);
   // Bent by the lace, so that the window's cells don't show.
   vec2 bent = xy + vec2(coarse - 0.5, lace - 0.5) * 1.6;
   float window = textureLod(foam_window_map, bent * foam_window.z + foam_window.xy, window_lod).r;
@@ -135,10 +136,11 @@ Foam foam_at(vec2 xy, Waves w, float fold, float footprint) {
   float nearness = clamp(1.6 - 0.4 * detail_lod, 0.0, 1.0);
   lace = 0.5 + nearness * (0.62 * (lace - 0.5) + 0.42 * (fine - 0.5)) + mix(1.0, 0.35, nearness) * (coarse - 0.5);
   lace = clamp(lace, 0.0, 1.0);
-  float width = clamp(0.6 * cover, 0.02, 0.24);
+  float width = clamp(0.8 * cover, 0.02, 0.36);
   float mask = smoothstep(1.0 - cover - width, 1.0 - cover + width, lace) * smoothstep(0.0, 0.03, cover);
   float froth = 1.0 - clamp(detail_lod * 0.25 - 1.0, 0.0, 1.0);
-  mask = mix(cover, mask * (0.62 + 0.38 * lace), froth);
+  // Thick froth hides the water, thin film lets it through.
+  mask = mix(cover, mask * (0.36 + 0.64 * lace), froth);
   return Foam(mask, clamp(cover * 0.8, 0.0, 1.0), mix(1.0, 0.72 + 0.5 * fine, froth));
 }
 
