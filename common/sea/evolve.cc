@@ -88,6 +88,7 @@ HWY_AFTER_NAMESPACE();
 #include <cstdlib>
 
 #include "common/base/check.h"
+#include "common/sea/spline.h"
 #include "common/sea/wave_frame.h"
 
 namespace onesea::sea {
@@ -136,7 +137,7 @@ double FieldFactor(Field field, double kx, double ky, double sigma, double chopp
 }  // namespace
 
 Evolver::Evolver(std::shared_ptr<const Components> components, int cascade, int grid_size,
-                 FieldSet fields)
+                 FieldSet fields, PlaneKind planes)
     : components_(std::move(components)), waves_(components_->cascades[cascade]) {
   std::vector<std::uint32_t> kept;
   for (std::uint32_t n = 0; n < waves_.i.size(); ++n) {
@@ -160,14 +161,18 @@ Evolver::Evolver(std::shared_ptr<const Components> components, int cascade, int 
     if ((fields >> f & 1) != 0) factors_[f] = AllocateZeros<float>(dense_.count);
   }
   for (std::uint32_t n : kept) {
-    if (waves_.i[n] >= 0) AddEntry(n, +1);
-    if (waves_.i[n] <= 0) AddEntry(n, -1);
+    const double gain = planes == PlaneKind::kSamples
+                            ? 1.0
+                            : 1.0 / (SplineResponse(waves_.i[n], grid_size) *
+                                     SplineResponse(waves_.j[n], grid_size));
+    if (waves_.i[n] >= 0) AddEntry(n, +1, gain);
+    if (waves_.i[n] <= 0) AddEntry(n, -1, gain);
   }
   weights_.assign(components_->recipe.timeline.size(), -1.0);
   new_weights_ = weights_;
 }
 
-void Evolver::AddEntry(std::uint32_t wave, int sign) {
+void Evolver::AddEntry(std::uint32_t wave, int sign, double gain) {
   const std::size_t element =
       static_cast<std::size_t>(sign * waves_.i[wave] * pitch_ + sign * waves_.j[wave] + index_max_);
   entries_.push_back(
@@ -181,9 +186,9 @@ void Evolver::AddEntry(std::uint32_t wave, int sign) {
   const double coth = (1.0 + decay) / (1.0 - decay);
   for (int f = 0; f < kFieldCount; ++f) {
     if (!factors_[f]) continue;
-    factors_[f][element] = static_cast<float>(FieldFactor(static_cast<Field>(f), kx, ky,
-                                                          waves_.intrinsic_rad_per_s[wave],
-                                                          components_->recipe.choppiness, coth));
+    factors_[f][element] = static_cast<float>(
+        gain * FieldFactor(static_cast<Field>(f), kx, ky, waves_.intrinsic_rad_per_s[wave],
+                           components_->recipe.choppiness, coth));
   }
 }
 

@@ -20,13 +20,15 @@ namespace onesea::sea {
 /// horizontal velocity, whose sign turns with the wave's travel. (D̂ = +i k̂ λ ĥ sharpens crests;
 /// the papers print the other sign.)
 ///
+/// For PlaneKind::kSplineCoefficients every factor is divided by the spline's response to the wave.
+///
 /// Only lattice points with |i|, |j| <= index_max() are held: a dense half plane i >= 0, since the
 /// spectra are Hermitian. Waves with max(|i|, |j|) >= grid_size / 2 are left out. Bits: the same on
 /// every machine. Not thread-safe.
 class Evolver {
  public:
-  Evolver(std::shared_ptr<const Components> components, int cascade, int grid_size,
-          FieldSet fields);
+  Evolver(std::shared_ptr<const Components> components, int cascade, int grid_size, FieldSet fields,
+          PlaneKind planes);
 
   /// Largest |i|, |j| held, at least 1.
   int index_max() const { return index_max_; }
@@ -76,7 +78,7 @@ class Evolver {
     std::uint32_t wave;
     std::uint32_t slot;
   };
-  void AddEntry(std::uint32_t wave, int sign);
+  void AddEntry(std::uint32_t wave, int sign, double gain);
   void UpdateAmplitudes();
 
   std::shared_ptr<const Components> components_;

@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "common/base/check.h"
-#include "common/base/real_math.h"
 #include "common/sea/constants.h"
 #include "common/sea/query_kernel.h"
 #include "common/sea/sheet_search.h"
+#include "common/sea/spline.h"
 #include "common/sea/wave_frame.h"
 
 namespace onesea::sea {
@@ -19,17 +19,9 @@ namespace {
 // Beyond this a double no longer resolves a tenth of a micrometre; far above kQueryCoordinateMaxM.
 constexpr double kCoordinateMaxM = 1.0e9;
 
+// Normals come from the gradients of the spline: only velocities need planes of their own.
 FieldSet FieldsFor(QueryDetail detail) {
-  switch (detail) {
-    case QueryDetail::kHeight:
-      return kQueryFields;
-    case QueryDetail::kNormal:
-      return kQueryFields | kNormalFields;
-    case QueryDetail::kVelocity:
-      return kQueryFields | kNormalFields | kVelocityFields;
-  }
-  ONESEA_CHECK(false) << "detail " << static_cast<int>(detail);
-  return 0;
+  return detail == QueryDetail::kVelocity ? kQueryFields | kVelocityFields : kQueryFields;
 }
 
 QueryRegular MakeRegular(const RegularAt& wave, const Recipe& recipe) {
@@ -60,28 +52,41 @@ QueryRegular MakeRegular(const RegularAt& wave, const Recipe& recipe) {
   return regular;
 }
 
-// HeightErrorBound. Bilinear interpolation of a wave with phase steps (a, b) from sample to sample
-// errs most at the centre of a cell, where it returns cos(a/2) cos(b/2) times the wave, without
-// shift: the error there is itself a sum of waves, Gaussian with variance σ² = Σ E (1 - cos(a/2)
-// cos(b/2))²; everywhere else it is smaller. The displacement errs likewise by at most λσ along any
-// direction, which moves the point and so changes the height by the slope of the surface in space,
-// taken as at most 1 (a steeper sea folds): together σ √(1 + λ²). kBoundSigmas of that are exceeded
-// by one point in 26 million; the inversion leaves less than kInversionErrorM.
+// HeightErrorBound. Between its samples a spline returns a wave of phase steps (a, b) times a
+// factor g_a g_b that is 1 plus its images from beyond the sampling rate. |g - 1| is greatest at the
+// centre between two samples, e = SplineError(); so the error at any point is a sum of waves,
+// Gaussian with at most the variance σ² = Σ E (e_a + e_b + e_a e_b)². The displacement errs likewise
+// by at most λσ along any direction, which moves the point and so changes the height by the slope
+// of the surface in space, taken as at most 1 (a steeper sea folds): together σ √(1 + λ²).
+// kBoundSigmas of that are exceeded by one point in 26 million; the inversion and rounding leave
+// less than kInversionErrorM.
 constexpr double kBoundSigmas = 5.5;
 constexpr double kInversionErrorM = 1e-3;
+// Second derivatives of the displacement beyond this many of their deviations are rare.
+constexpr double kCurvatureSigmas = 4.0;
 
-// σ² of one weather entry.
-double InterpolationVariance(const Components& components, std::size_t entry) {
-  double sum_m2 = 0.0;
+// Of one weather entry.
+struct EntryVariances {
+  double interpolation_m2 = 0.0;  // σ²
+  double curvature_per_m2 = 0.0;  // Σ E λ² k⁴: of D'' along the wave
+};
+
+EntryVariances VariancesOf(const Components& components, std::size_t entry) {
+  EntryVariances sum;
+  const double lambda = components.recipe.choppiness;
   for (const CascadeComponents& waves : components.cascades) {
-    const double half_step_rad = kPi / waves.cascade.query_grid_size;
+    const int size = waves.cascade.query_grid_size;
     for (std::size_t n = 0; n < waves.i.size(); ++n) {
-      const double loss =
-          1.0 - real::Cos(half_step_rad * waves.i[n]) * real::Cos(half_step_rad * waves.j[n]);
-      sum_m2 += loss * loss * waves.variance_m2[entry][n];
+      const double energy_m2 = waves.variance_m2[entry][n];
+      const double a = SplineError(waves.i[n], size), b = SplineError(waves.j[n], size);
+      const double error = a + b + a * b;
+      sum.interpolation_m2 += error * error * energy_m2;
+      const double kx = waves.kx_rad_per_m[n], ky = waves.ky_rad_per_m[n];
+      const double bend = lambda * (kx * kx + ky * ky);
+      sum.curvature_per_m2 += bend * bend * energy_m2;
     }
   }
-  return sum_m2;
+  return sum;
 }
 
 }  // namespace
@@ -91,7 +96,8 @@ struct SeaSnapshot::Impl {
   QueryDetail detail = QueryDetail::kHeight;
   std::shared_ptr<const Components> components;
   std::vector<CascadeFields> fields;
-  std::vector<FloatArray> displacements;  // QueryCascade::displacement
+  std::vector<FloatArray> waves;       // QueryCascade::waves
+  std::vector<FloatArray> velocities;  // QueryCascade::velocities
   QueryGrids grids;
   double height_error_bound_m = 0.0;
 };
@@ -128,7 +134,7 @@ struct SnapshotBuilder::Impl {
   // One per detail and cascade, made when first asked for.
   std::array<std::vector<Synthesiser>, 3> synthesisers;
   std::vector<double> weights;
-  std::vector<double> interpolation_variance_m2;  // per weather entry
+  std::vector<EntryVariances> variances;  // per weather entry
   std::vector<RegularAt> regular;
 };
 
@@ -138,7 +144,7 @@ SnapshotBuilder::SnapshotBuilder(std::shared_ptr<const Components> components,
   ONESEA_CHECK(components != nullptr);
   impl_->weights.resize(components->recipe.timeline.size());
   for (std::size_t m = 0; m < impl_->weights.size(); ++m) {
-    impl_->interpolation_variance_m2.push_back(InterpolationVariance(*components, m));
+    impl_->variances.push_back(VariancesOf(*components, m));
   }
   impl_->components = std::move(components);
   impl_->transform = transform;
@@ -155,7 +161,7 @@ std::shared_ptr<const SeaSnapshot> SnapshotBuilder::At(SimTime time, QueryDetail
     for (std::size_t c = 0; c < components.cascades.size(); ++c) {
       const int size = components.cascades[c].cascade.query_grid_size;
       synthesisers.emplace_back(impl_->components, static_cast<int>(c), size, wanted,
-                                impl_->transform);
+                                impl_->transform, PlaneKind::kSplineCoefficients);
     }
   }
   auto snapshot = std::make_unique<SeaSnapshot::Impl>();
@@ -164,12 +170,15 @@ std::shared_ptr<const SeaSnapshot> SnapshotBuilder::At(SimTime time, QueryDetail
     // Nobody else can see it, so its storage is ours.
     auto& old = const_cast<SeaSnapshot::Impl&>(*recycle->impl_);
     snapshot->fields = std::move(old.fields);
-    snapshot->displacements = std::move(old.displacements);
+    snapshot->waves = std::move(old.waves);
+    snapshot->velocities = std::move(old.velocities);
   } else {
     for (const CascadeComponents& cascade : components.cascades) {
       const int size = cascade.cascade.query_grid_size;
       snapshot->fields.emplace_back(size, wanted);
-      snapshot->displacements.push_back(AllocateZeros<float>(DisplacementFloats(size)));
+      snapshot->waves.push_back(AllocateZeros<float>(RecordFloats(size)));
+      if (detail == QueryDetail::kVelocity)
+        snapshot->velocities.push_back(AllocateZeros<float>(RecordFloats(size)));
     }
   }
   snapshot->time = time;
@@ -179,32 +188,41 @@ std::shared_ptr<const SeaSnapshot> SnapshotBuilder::At(SimTime time, QueryDetail
   snapshot->grids.current_m_per_s = components.recipe.current_m_per_s;
   for (std::size_t c = 0; c < components.cascades.size(); ++c) {
     synthesisers[c].Evaluate(time, snapshot->fields[c]);
-    InterleaveDisplacement(snapshot->fields[c], snapshot->displacements[c].get());
+    WriteRecords(snapshot->fields[c],
+                 {Field::kDisplacementX, Field::kDisplacementY, Field::kHeight},
+                 snapshot->waves[c].get());
     const CascadeFrame frame(components.cascades[c].cascade);
     QueryCascade grid{.grid_size = components.cascades[c].cascade.query_grid_size,
                       .cosine = frame.cosine,
                       .sine = frame.sine};
-    grid.displacement = snapshot->displacements[c].get();
+    grid.waves = snapshot->waves[c].get();
     grid.cells_per_m = grid.grid_size / frame.length_m;
-    for (int f = 0; f < kFieldCount; ++f) {
-      const auto field = static_cast<Field>(f);
-      if (snapshot->fields[c].Has(field)) grid.planes[f] = snapshot->fields[c].Plane(field).data();
+    if (detail == QueryDetail::kVelocity) {
+      WriteRecords(snapshot->fields[c], {Field::kVelocityX, Field::kVelocityY, Field::kVelocityZ},
+                   snapshot->velocities[c].get());
+      grid.velocities = snapshot->velocities[c].get();
     }
     snapshot->grids.cascades.push_back(grid);
   }
   WeatherWeights(components.recipe, time, impl_->weights);
-  double variance_m2 = 0.0;
+  EntryVariances now;
   for (std::size_t m = 0; m < impl_->weights.size(); ++m) {
-    variance_m2 += impl_->weights[m] * impl_->interpolation_variance_m2[m];
+    now.interpolation_m2 += impl_->weights[m] * impl_->variances[m].interpolation_m2;
+    now.curvature_per_m2 += impl_->weights[m] * impl_->variances[m].curvature_per_m2;
   }
   const double lambda = components.recipe.choppiness;
   snapshot->height_error_bound_m =
-      kBoundSigmas * std::sqrt(variance_m2 * (1.0 + lambda * lambda)) + kInversionErrorM;
+      kBoundSigmas * std::sqrt(now.interpolation_m2 * (1.0 + lambda * lambda)) + kInversionErrorM;
+  double curvature_per_m = kCurvatureSigmas * std::sqrt(now.curvature_per_m2);
   RegularWavesAt(components, time, impl_->weights, impl_->regular);
   for (const RegularAt& wave : impl_->regular) {
-    if (wave.amplitude_m > 0.0)
-      snapshot->grids.regular.push_back(MakeRegular(wave, components.recipe));
+    if (!(wave.amplitude_m > 0.0)) continue;
+    snapshot->grids.regular.push_back(MakeRegular(wave, components.recipe));
+    curvature_per_m +=
+        lambda * wave.amplitude_m *
+        (wave.kx_rad_per_m * wave.kx_rad_per_m + wave.ky_rad_per_m * wave.ky_rad_per_m);
   }
+  snapshot->grids.curvature_per_m = static_cast<float>(curvature_per_m);
   return std::make_shared<const SeaSnapshot>(std::move(snapshot));
 }
 

@@ -26,7 +26,7 @@ struct SurfaceSample {
   float height_m = 0.0f;          ///< of the top sheet above (x, y)
   float displacement_x_m = 0.0f;  ///< from the undisplaced point to (x, y)
   float displacement_y_m = 0.0f;
-  float residual_m = 0.0f;  ///< horizontal miss of the inversion
+  float residual_m = 0.0f;  ///< horizontal miss of the inversion, estimated to second order
   float normal_x = 0.0f, normal_y = 0.0f, normal_z = 1.0f;
   float velocity_x_m_per_s = 0.0f, velocity_y_m_per_s = 0.0f,
         velocity_z_m_per_s = 0.0f;  ///< with the current
@@ -54,8 +54,9 @@ class SeaSnapshot {
   /// allocates nothing.
   void Sample(std::span<const Vec2d> points, std::span<SurfaceSample> out) const;
 
-  /// Bound [m] of |height_m - exact| for unfolded points: bilinear interpolation plus inversion;
-  /// see point_query.cc for its derivation and for the probability with which it holds.
+  /// Bound [m] of |height_m - exact| for unfolded points: spline interpolation plus inversion, some
+  /// millimetres even in a storm; see point_query.cc for its derivation and for the probability with
+  /// which it holds.
   double HeightErrorBound() const;
 
  private:

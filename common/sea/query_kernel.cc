@@ -1,13 +1,16 @@
 // Height above a point of the choppy sea: find p with p + D(p) = x, summed over all cascades.
 //
-// Idea: three fixed-point steps d <- D(x - d), one Newton step with the gradient of the
-// interpolated field, then the
-//   height with a first-order correction for what is left. Points go in blocks of 64; lanes are
-//   points; each point's four corners are copied to a small buffer and transposed in registers,
-//   since gathers are slow on half the machines.
-// Bits: lanes never meet, nothing is fused: the same on every SIMD target.
-// Limits: the four steps converge where the displacement contracts; the others are marked
-// suspicious for sheet_search.
+// Idea: three cheap steps d <- D(x - d) on the coefficients read bilinearly, the last one a Newton
+//   step, bring d within centimetres. Then the cubic spline is read once: D, h and their gradients
+//   come from the same 16 records, and a Newton step carries both to the solution. The few points
+//   where that step was long take a second one.
+// Points go in blocks of 64. In the cheap steps lanes are points, whose corners are copied to a
+//   small buffer and transposed in registers, since gathers are slow on half the machines. In the
+//   spline lanes are the records of a row: four 64-byte loads a point and cascade.
+// Bits: additions across lanes have one order, (0 + 2) + (1 + 3), nothing is fused, and no point
+//   depends on the others of its block: the same on every SIMD target.
+// Limits: the steps converge where the displacement contracts; the others are marked suspicious for
+//   sheet_search.
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "common/sea/query_kernel.cc"
@@ -18,6 +21,9 @@
 
 #include "common/sea/query_kernel.h"
 #include "common/sea/sincos-inl.h"
+#include "common/sea/spline-inl.h"
+#include "common/sea/spline.h"
+#include "hwy/cache_control.h"
 #include "hwy/highway.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -25,44 +31,45 @@ namespace onesea::sea {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using D = hn::CappedTag<float, 16>;
-using DI = hn::RebindToSigned<D>;
-using DU = hn::RebindToUnsigned<D>;
-using V = hn::Vec<D>;
-using VI = hn::Vec<DI>;
-
 constexpr int kB = kQueryBlock;
-// Residual beyond which the careful path answers.
-constexpr float kConvergedM = 1e-3f;
-// Ratio of successive steps beyond which the surface may fold; steps below the noise say nothing.
-constexpr float kContractionMax = 0.45f;
-constexpr float kStepNoiseM = 0.01f;
+// Residual beyond which a second spline step follows, and then the careful path.
+constexpr float kConvergedM = 5e-4f;
 // Least eigenvalue of the Jacobian below which the surface may fold.
-constexpr float kStretchMin = 0.6f;
+constexpr float kStretchMin = 0.7f;
 
-// A point's place in one cascade and the values at its cell's corners. All cascades are fetched
-// before any is interpolated: wide loads must not run into the narrow stores just before them.
+// A point's place in one cascade and the values around it. All cascades are fetched before any is
+// interpolated: wide loads must not run into the narrow stores just before them.
 struct alignas(64) CascadeBlock {
   float frac_u[kB], frac_v[kB];  // of the displaced point
   std::int32_t cell_u[kB], cell_v[kB];
-  std::int32_t iu[kB], iv[kB];  // of the undisplaced point
-  std::int32_t offset[kB];      // of its cell in QueryCascade::displacement, in floats
-  float wu[kB], wv[kB];
-  float corners[4 * kB], high_corners[4 * kB];
+  std::int32_t offset[kB];  // of the undisplaced point's cell in the records, in floats
+  float wu[kB], wv[kB];     // its place in the cell
+  union {
+    struct {
+      float corners[4 * kB], high_corners[4 * kB];
+    };
+    struct {  // four a point
+      float weight_u[4 * kB], weight_v[4 * kB], slope_u[4 * kB], slope_v[4 * kB];
+    };
+  };
 };
 
 struct alignas(64) Block {
   CascadeBlock cascades[kCascadesMax];
   std::uint32_t turns[kRegularWavesMax][kB];  // of the regular waves at the displaced point
   float d_x[kB], d_y[kB];                     // displacement so far
-  float step_m[kB];
-  float doubt[kB];  // > 0: suspicious
-  float plane_corners[4 * kB];
+  float height[kB], residual_m[kB];           // after the spline step
+  float stretch[kB];                          // least one met
+  float active[kB];                           // > 0: takes the next spline step
+  int order[kB];                              // the points of the next spline step
+  float value[4 * kB], along_x[4 * kB], along_y[4 * kB];  // records summed over cascades
   float sum[9][kB];
+  float velocity[3][kB];
+  int count = 0;  // of order
 };
 
 // Sums over cascades at x - d.
-enum Sum { kDx, kDy, kJxx, kJxy, kJyx, kJyy, kHeight, kSlopeX, kSlopeY };
+enum Sum { kDx, kDy, kHeight, kJxx, kJyx, kSlopeX, kJxy, kJyy, kSlopeY };
 
 HWY_INLINE void Reduce(const QueryGrids& grids, const double* x, const double* y, Block& block) {
   const hn::CappedTag<double, 8> d;
@@ -97,7 +104,7 @@ HWY_INLINE void PlaceInCells(const QueryCascade& cascade, const Block& block, Ca
   const V cosine = hn::Set(d, static_cast<float>(cascade.cosine * cascade.cells_per_m));
   const V sine = hn::Set(d, static_cast<float>(cascade.sine * cascade.cells_per_m));
   const VI mask = hn::Set(di, cascade.grid_size - 1);
-  const VI pitch = hn::Set(di, cascade.grid_size + 1);
+  const VI pitch = hn::Set(di, cascade.grid_size + 4);
   for (std::size_t n = 0; n < kB; n += hn::Lanes(d)) {
     const V dx = hn::Load(d, block.d_x + n), dy = hn::Load(d, block.d_y + n);
     const V u =
@@ -109,29 +116,8 @@ HWY_INLINE void PlaceInCells(const QueryCascade& cascade, const Block& block, Ca
     hn::Store(hn::Sub(v, whole_v), d, to.wv + n);
     const VI iu = hn::Add(hn::Load(di, to.cell_u + n), hn::ConvertTo(di, whole_u));
     const VI iv = hn::Add(hn::Load(di, to.cell_v + n), hn::ConvertTo(di, whole_v));
-    const VI u_wrapped = hn::And(iu, mask), v_wrapped = hn::And(iv, mask);
-    hn::Store(u_wrapped, di, to.iu + n);
-    hn::Store(v_wrapped, di, to.iv + n);
-    const VI at = hn::Add(hn::Mul(v_wrapped, pitch), u_wrapped);
-    hn::Store(hn::ShiftLeft<1>(at), di, to.offset + n);
-  }
-}
-
-// Corner values of each point's cell in a plain plane, 00, 10, 01, 11 (u first).
-HWY_INLINE void FetchCorners(const float* plane, int grid_size, const CascadeBlock& at,
-                             float* corners) {
-  const int mask = grid_size - 1;
-  for (int n = 0; n < kB; ++n) {
-    const int iu = at.iu[n], iv = at.iv[n];
-    const float* low = plane + static_cast<std::size_t>(iv) * grid_size;
-    const float* high = plane + static_cast<std::size_t>((iv + 1) & mask) * grid_size;
-    float* to = corners + 4 * n;
-    if (HWY_LIKELY(iu != mask)) {
-      std::memcpy(to, low + iu, 8);
-      std::memcpy(to + 2, high + iu, 8);
-    } else {
-      to[0] = low[iu], to[1] = low[0], to[2] = high[iu], to[3] = high[0];
-    }
+    const VI at = hn::Add(hn::Mul(hn::And(iv, mask), pitch), hn::And(iu, mask));
+    hn::Store(hn::ShiftLeft<2>(at), di, to.offset + n);
   }
 }
 
@@ -139,11 +125,6 @@ struct Corners {
   HWY_INLINE Corners() {}  // an implicit one would not get the target's attributes
   V c00, c10, c01, c11;
 };
-HWY_INLINE Corners LoadCorners(const float* corners, std::size_t n) {
-  Corners c;
-  hn::LoadInterleaved4(D(), corners + 4 * n, c.c00, c.c10, c.c01, c.c11);
-  return c;
-}
 struct Bilinear {
   V value, along_u, along_v;  // the latter per cell
 };
@@ -159,40 +140,25 @@ HWY_INLINE void AddTo(float* sum, V value) {
   hn::Store(hn::Add(hn::Load(D(), sum), value), D(), sum);
 }
 
-// Adds one plain field of one cascade to a sum, and its world gradient to two more if they are
-// asked for.
-HWY_INLINE void AddField(const QueryCascade& cascade, Field field, const CascadeBlock& at,
-                         Block& block, int to, int to_x = -1, int to_y = -1) {
-  const D d;
-  FetchCorners(cascade.planes[static_cast<int>(field)], cascade.grid_size, at, block.plane_corners);
-  const V cosine = hn::Set(d, static_cast<float>(cascade.cosine * cascade.cells_per_m));
-  const V sine = hn::Set(d, static_cast<float>(cascade.sine * cascade.cells_per_m));
-  for (std::size_t n = 0; n < kB; n += hn::Lanes(d)) {
-    const Bilinear f = Interpolate(LoadCorners(block.plane_corners, n), hn::Load(d, at.wu + n),
-                                   hn::Load(d, at.wv + n));
-    AddTo(block.sum[to] + n, f.value);
-    if (to_x < 0) continue;
-    AddTo(block.sum[to_x] + n, hn::Sub(hn::Mul(cosine, f.along_u), hn::Mul(sine, f.along_v)));
-    AddTo(block.sum[to_y] + n, hn::Add(hn::Mul(sine, f.along_u), hn::Mul(cosine, f.along_v)));
-  }
-}
-
-HWY_INLINE void FetchDisplacement(const QueryCascade& cascade, CascadeBlock& to) {
-  const std::size_t up = 2 * static_cast<std::size_t>(cascade.grid_size + 1);
+// Displacement at the corners of each point's cell.
+HWY_INLINE void FetchCorners(const QueryCascade& cascade, CascadeBlock& to) {
+  const std::size_t pitch = RecordPitchFloats(cascade.grid_size);
   for (int n = 0; n < kB; ++n) {
-    const float* at = cascade.displacement + to.offset[n];
-    std::memcpy(to.corners + 4 * n, at, 16);
-    std::memcpy(to.high_corners + 4 * n, at + up, 16);
+    const float* low = cascade.waves + to.offset[n] + pitch + 4;
+    const float* high = low + pitch;
+    CopyFirstTwo(low, low + 4, to.corners + 4 * n);
+    CopyFirstTwo(high, high + 4, to.high_corners + 4 * n);
   }
 }
 
 template <bool kGradient>
-HWY_INLINE void InterpolateDisplacement(const QueryGrids& grids, Block& block) {
+HWY_INLINE void InterpolateDisplacement(const QueryGrids& grids, std::size_t cascades,
+                                        Block& block) {
   const D d;
   for (std::size_t n = 0; n < kB; n += hn::Lanes(d)) {
     V sum_x = hn::Zero(d), sum_y = hn::Zero(d);
     V xx = hn::Zero(d), xy = hn::Zero(d), yx = hn::Zero(d), yy = hn::Zero(d);
-    for (std::size_t c = 0; c < grids.cascades.size(); ++c) {
+    for (std::size_t c = 0; c < cascades; ++c) {
       const QueryCascade& cascade = grids.cascades[c];
       const CascadeBlock& at = block.cascades[c];
       Corners x, y;
@@ -234,32 +200,14 @@ HWY_INLINE void RegularPhase(const QueryRegular& wave, const std::uint32_t* turn
   SinCosTurns(d, hn::Sub(hn::Load(DU(), turns + n), hn::BitCast(DU(), fraction)), sine, cosine);
 }
 
-HWY_INLINE void ZeroSums(Block& block, int count) {
-  for (int s = 0; s < count; ++s) std::memset(block.sum[s], 0, sizeof block.sum[s]);
-}
-
 HWY_INLINE V FactorOf(const QueryRegular& wave, Field field) {
   return hn::Set(D(), wave.factors[static_cast<int>(field)]);
 }
 
-// Sums over cascades and regular waves at x - d: displacement, its gradient, height and its
-// gradient.
-template <bool kGradient, bool kWithHeight = false>
-HWY_INLINE void SumDisplacement(const QueryGrids& grids, Block& block) {
+// Adds the regular waves at x - d: displacement, its gradient, height and its gradient.
+template <bool kGradient, bool kWithHeight>
+HWY_INLINE void AddRegular(const QueryGrids& grids, Block& block) {
   const D d;
-  for (std::size_t c = 0; c < grids.cascades.size(); ++c) {
-    PlaceInCells(grids.cascades[c], block, block.cascades[c]);
-    FetchDisplacement(grids.cascades[c], block.cascades[c]);
-  }
-  InterpolateDisplacement<kGradient>(grids, block);
-  if constexpr (kWithHeight) {
-    for (int sum : {kHeight, kSlopeX, kSlopeY})
-      std::memset(block.sum[sum], 0, sizeof block.sum[sum]);
-    for (std::size_t c = 0; c < grids.cascades.size(); ++c) {
-      AddField(grids.cascades[c], Field::kHeight, block.cascades[c], block, kHeight, kSlopeX,
-               kSlopeY);
-    }
-  }
   for (std::size_t r = 0; r < grids.regular.size(); ++r) {
     const QueryRegular& wave = grids.regular[r];
     for (std::size_t n = 0; n < kB; n += hn::Lanes(d)) {
@@ -282,27 +230,112 @@ HWY_INLINE void SumDisplacement(const QueryGrids& grids, Block& block) {
   }
 }
 
-HWY_INLINE V Length(V x, V y) { return hn::Sqrt(hn::Add(hn::Mul(x, x), hn::Mul(y, y))); }
-
-// Notes the length of this step and whether the last one contracted.
-HWY_INLINE void WatchStep(Block& block, std::size_t n, V step) {
-  const D d;
-  const V before = hn::Load(d, block.step_m + n);
-  const auto grows = hn::And(hn::Gt(step, hn::Mul(hn::Set(d, kContractionMax), before)),
-                             hn::Gt(step, hn::Set(d, kStepNoiseM)));
-  hn::Store(hn::IfThenElse(grows, hn::Set(d, 1.0f), hn::Load(d, block.doubt + n)), d,
-            block.doubt + n);
-  hn::Store(step, d, block.step_m + n);
+// Displacement at x - d of the first cascades, with its gradient if asked for, to the accuracy of a
+// start.
+template <bool kGradient>
+HWY_INLINE void ReadBilinear(const QueryGrids& grids, std::size_t cascades, Block& block) {
+  for (std::size_t c = 0; c < cascades; ++c) {
+    PlaceInCells(grids.cascades[c], block, block.cascades[c]);
+    FetchCorners(grids.cascades[c], block.cascades[c]);
+  }
+  InterpolateDisplacement<kGradient>(grids, cascades, block);
+  AddRegular<kGradient, false>(grids, block);
 }
 
-HWY_INLINE void FixedPointStep(const QueryGrids& grids, Block& block) {
+// Reads the spline of one cascade at point n; adds the record there to `value` and, if they are
+// wanted, its derivatives to `along_x` and `along_y`.
+template <bool kGradient>
+HWY_INLINE void AddSpline(const QueryCascade& cascade, const float* records, const CascadeBlock& at,
+                          int n, Record& value, Record& along_x, Record& along_y) {
   const D d;
-  SumDisplacement<false>(grids, block);
+  const std::size_t pitch = RecordPitchFloats(cascade.grid_size);
+  V values[kChunks], along_us[kChunks], along_vs[kChunks];
+  for (int chunk = 0; chunk < kChunks; ++chunk) {
+    const float* from = records + at.offset[n] + chunk * kLanes;
+    const V rows[4] = {hn::LoadU(d, from), hn::LoadU(d, from + pitch),
+                       hn::LoadU(d, from + 2 * pitch), hn::LoadU(d, from + 3 * pitch)};
+    const V column = CombineRows(rows, at.weight_v + 4 * n);
+    const V weight_u = ExpandWeights(at.weight_u + 4 * n, chunk);
+    values[chunk] = hn::Mul(weight_u, column);
+    if constexpr (kGradient) {
+      along_us[chunk] = hn::Mul(ExpandWeights(at.slope_u + 4 * n, chunk), column);
+      along_vs[chunk] = hn::Mul(weight_u, CombineRows(rows, at.slope_v + 4 * n));
+    }
+  }
+  value = Add(value, SumRecords(values));
+  if constexpr (kGradient) {
+    const Record along_u = SumRecords(along_us), along_v = SumRecords(along_vs);
+    const auto cosine = static_cast<float>(cascade.cosine * cascade.cells_per_m);
+    const auto sine = static_cast<float>(cascade.sine * cascade.cells_per_m);
+    along_x = Add(along_x, Add(Scale(cosine, along_u), Scale(-sine, along_v)));
+    along_y = Add(along_y, Add(Scale(sine, along_u), Scale(cosine, along_v)));
+  }
+}
+
+// Points ahead of the one at work whose rows are asked for.
+constexpr int kAhead = 3;
+
+HWY_INLINE void PrefetchRows(const QueryCascade& cascade, std::int32_t offset) {
+  const std::size_t pitch = RecordPitchFloats(cascade.grid_size);
+  const float* row = cascade.waves + offset;
+  for (int r = 0; r < 4; ++r, row += pitch) {
+    hwy::Prefetch(row);
+    hwy::Prefetch(row + 15);
+  }
+}
+
+HWY_INLINE void PlaceInSpline(const QueryGrids& grids, Block& block) {
+  for (std::size_t c = 0; c < grids.cascades.size(); ++c) {
+    CascadeBlock& at = block.cascades[c];
+    PlaceInCells(grids.cascades[c], block, at);
+    WeighSpline(at.wu, kB, at.weight_u, at.slope_u);
+    WeighSpline(at.wv, kB, at.weight_v, at.slope_v);
+  }
+}
+
+// Displacement and height at x - d with their gradients, of the points in block.order alone. The
+// others' sums are left without meaning.
+HWY_INLINE void ReadSpline(const QueryGrids& grids, Block& block) {
+  const D d;
+  PlaceInSpline(grids, block);
+  for (int at = 0; at < block.count; ++at) {
+    const int n = block.order[at];
+    if (at + kAhead < block.count) {
+      for (std::size_t c = 0; c < grids.cascades.size(); ++c) {
+        PrefetchRows(grids.cascades[c], block.cascades[c].offset[block.order[at + kAhead]]);
+      }
+    }
+    Record value = Zero(), along_x = Zero(), along_y = Zero();
+    for (std::size_t c = 0; c < grids.cascades.size(); ++c) {
+      AddSpline<true>(grids.cascades[c], grids.cascades[c].waves, block.cascades[c], n, value,
+                      along_x, along_y);
+    }
+    Put(value, block.value + 4 * n);
+    Put(along_x, block.along_x + 4 * n);
+    Put(along_y, block.along_y + 4 * n);
+  }
+  const auto unpack = [&](const float* records, int first) HWY_ATTR {
+    for (std::size_t n = 0; n < kB; n += hn::Lanes(d)) {
+      V x, y, z, none;
+      hn::LoadInterleaved4(d, records + 4 * n, x, y, z, none);
+      hn::Store(x, d, block.sum[first] + n);
+      hn::Store(y, d, block.sum[first + 1] + n);
+      hn::Store(z, d, block.sum[first + 2] + n);
+    }
+  };
+  unpack(block.value, kDx);
+  unpack(block.along_x, kJxx);
+  unpack(block.along_y, kJxy);
+  AddRegular<true, true>(grids, block);
+}
+
+HWY_INLINE V Length(V x, V y) { return hn::Sqrt(hn::Add(hn::Mul(x, x), hn::Mul(y, y))); }
+
+HWY_INLINE void FixedPointStep(const QueryGrids& grids, std::size_t cascades, Block& block) {
+  const D d;
+  ReadBilinear<false>(grids, cascades, block);
   for (std::size_t n = 0; n < kB; n += hn::Lanes(d)) {
     const V dx = hn::Load(d, block.sum[kDx] + n), dy = hn::Load(d, block.sum[kDy] + n);
-    WatchStep(
-        block, n,
-        Length(hn::Sub(dx, hn::Load(d, block.d_x + n)), hn::Sub(dy, hn::Load(d, block.d_y + n))));
     hn::Store(dx, d, block.d_x + n);
     hn::Store(dy, d, block.d_y + n);
   }
@@ -328,7 +361,7 @@ HWY_INLINE void SolveJacobian(const Block& block, std::size_t n, V r_x, V r_y, V
 
 HWY_INLINE void NewtonStep(const QueryGrids& grids, Block& block) {
   const D d;
-  SumDisplacement<true>(grids, block);
+  ReadBilinear<true>(grids, grids.cascades.size(), block);
   for (std::size_t n = 0; n < kB; n += hn::Lanes(d)) {
     const V dx = hn::Load(d, block.d_x + n), dy = hn::Load(d, block.d_y + n);
     V step_x, step_y, stretch;
@@ -336,33 +369,48 @@ HWY_INLINE void NewtonStep(const QueryGrids& grids, Block& block) {
                   hn::Sub(hn::Load(d, block.sum[kDy] + n), dy), step_x, step_y, stretch);
     hn::Store(hn::Add(dx, step_x), d, block.d_x + n);
     hn::Store(hn::Add(dy, step_y), d, block.d_y + n);
+    hn::Store(stretch, d, block.stretch + n);
   }
 }
 
-// Height and residual at the last point; height and displacement are corrected to first order for
-// the residual.
-HWY_INLINE void FinalStep(const QueryGrids& grids, Block& block) {
+// A Newton step of the active points by the spline. The residual after it is what a field of the
+// greatest curvature would leave.
+HWY_INLINE void SplineStep(const QueryGrids& grids, Block& block) {
   const D d;
-  SumDisplacement<true, true>(grids, block);
+  ReadSpline(grids, block);
+  const V half_curvature = hn::Set(d, 0.5f * grids.curvature_per_m);
   for (std::size_t n = 0; n < kB; n += hn::Lanes(d)) {
+    const auto active = hn::Gt(hn::Load(d, block.active + n), hn::Zero(d));
     const V dx = hn::Load(d, block.d_x + n), dy = hn::Load(d, block.d_y + n);
-    const V r_x = hn::Sub(hn::Load(d, block.sum[kDx] + n), dx);
-    const V r_y = hn::Sub(hn::Load(d, block.sum[kDy] + n), dy);
     V step_x, step_y, stretch;
-    SolveJacobian(block, n, r_x, r_y, step_x, step_y, stretch);
-    const V residual = Length(r_x, r_y);
-    const auto bad =
-        hn::Or(hn::Gt(residual, hn::Set(d, kConvergedM)), hn::Lt(stretch, hn::Set(d, kStretchMin)));
-    hn::Store(hn::IfThenElse(bad, hn::Set(d, 1.0f), hn::Load(d, block.doubt + n)), d,
-              block.doubt + n);
-    hn::Store(residual, d, block.step_m + n);
+    SolveJacobian(block, n, hn::Sub(hn::Load(d, block.sum[kDx] + n), dx),
+                  hn::Sub(hn::Load(d, block.sum[kDy] + n), dy), step_x, step_y, stretch);
+    const auto put = [&](V value, float* to) HWY_ATTR {
+      hn::Store(hn::IfThenElse(active, value, hn::Load(d, to + n)), d, to + n);
+    };
     // d grows by the step, so the undisplaced point x - d moves back by it.
     const V lift = hn::Add(hn::Mul(hn::Load(d, block.sum[kSlopeX] + n), step_x),
                            hn::Mul(hn::Load(d, block.sum[kSlopeY] + n), step_y));
-    hn::Store(hn::Sub(hn::Load(d, block.sum[kHeight] + n), lift), d, block.sum[kHeight] + n);
-    hn::Store(hn::Add(dx, step_x), d, block.d_x + n);
-    hn::Store(hn::Add(dy, step_y), d, block.d_y + n);
+    put(hn::Sub(hn::Load(d, block.sum[kHeight] + n), lift), block.height);
+    put(hn::Add(dx, step_x), block.d_x);
+    put(hn::Add(dy, step_y), block.d_y);
+    put(hn::Mul(half_curvature, hn::Add(hn::Mul(step_x, step_x), hn::Mul(step_y, step_y))),
+        block.residual_m);
+    put(hn::Min(stretch, hn::Load(d, block.stretch + n)), block.stretch);
   }
+}
+
+// Only points whose residual is large stay active.
+HWY_INLINE void KeepUnsolved(Block& block) {
+  int kept = 0;
+  for (int at = 0; at < block.count; ++at) {
+    const int n = block.order[at];
+    const bool unsolved = !(block.residual_m[n] <= kConvergedM);
+    block.active[n] = unsolved ? 1.0f : 0.0f;
+    block.order[kept] = n;
+    kept += unsolved;
+  }
+  block.count = kept;
 }
 
 HWY_INLINE void LoadPoints(const QueryGrids& grids, std::span<const Vec2d> points, Block& block) {
@@ -382,57 +430,65 @@ HWY_INLINE void LoadPoints(const QueryGrids& grids, std::span<const Vec2d> point
   }
 }
 
+HWY_INLINE void SelectAll(std::size_t points, Block& block) {
+  block.count = static_cast<int>(points);
+  for (int n = 0; n < kB; ++n) {
+    block.order[n] = n;
+    block.active[n] = 1.0f;
+  }
+}
+
 void SolveBlock(const QueryGrids& grids, std::span<const Vec2d> points,
                 std::span<SurfaceSample> out, std::span<bool> suspicious) {
   Block block;
   LoadPoints(grids, points, block);
   std::memset(block.d_x, 0, sizeof block.d_x);
   std::memset(block.d_y, 0, sizeof block.d_y);
-  std::memset(block.doubt, 0, sizeof block.doubt);
-  for (float& step : block.step_m) step = 1e30f;
-  for (int step = 0; step < 3; ++step) FixedPointStep(grids, block);
+  SelectAll(points.size(), block);
+  // The short waves of the last cascades say nothing while d is off by more than their length.
+  const std::size_t cascades = grids.cascades.size();
+  FixedPointStep(grids, (cascades + 1) / 2, block);
+  FixedPointStep(grids, cascades - cascades / 4, block);
   NewtonStep(grids, block);
-  FinalStep(grids, block);
+  SplineStep(grids, block);
+  KeepUnsolved(block);
+  if (block.count > 0) SplineStep(grids, block);
   for (std::size_t n = 0; n < points.size(); ++n) {
     SurfaceSample& sample = out[n];
     sample = SurfaceSample{};
-    sample.height_m = block.sum[kHeight][n];
+    sample.height_m = block.height[n];
     sample.displacement_x_m = block.d_x[n];
     sample.displacement_y_m = block.d_y[n];
-    sample.residual_m = block.step_m[n];
-    suspicious[n] = block.doubt[n] > 0.0f;
+    sample.residual_m = block.residual_m[n];
+    suspicious[n] = !(block.residual_m[n] <= kConvergedM && block.stretch[n] >= kStretchMin);
   }
 }
 
-// One plain field summed over cascades into block.sum[at].
-HWY_INLINE void SumNormalFields(const QueryGrids& grids, Block& block) {
-  constexpr Field kFields[5] = {Field::kSlopeX, Field::kSlopeY, Field::kJacobianXX,
-                                Field::kJacobianYY, Field::kJacobianXY};
-  constexpr Field kVelocities[3] = {Field::kVelocityX, Field::kVelocityY, Field::kVelocityZ};
+// Velocity at x - d, after ReadSpline() has placed the points.
+HWY_INLINE void ReadVelocity(const QueryGrids& grids, Block& block) {
   const D d;
-  ZeroSums(block, 8);
-  const bool velocity = grids.detail == QueryDetail::kVelocity;
-  for (std::size_t c = 0; c < grids.cascades.size(); ++c) {
-    const CascadeBlock& at = block.cascades[c];
-    PlaceInCells(grids.cascades[c], block, block.cascades[c]);
-    for (int f = 0; f < 5; ++f) AddField(grids.cascades[c], kFields[f], at, block, f);
-    for (int f = 0; velocity && f < 3; ++f) {
-      AddField(grids.cascades[c], kVelocities[f], at, block, 5 + f);
+  for (int n = 0; n < block.count; ++n) {
+    Record value = Zero(), none = Zero();
+    for (std::size_t c = 0; c < grids.cascades.size(); ++c) {
+      AddSpline<false>(grids.cascades[c], grids.cascades[c].velocities, block.cascades[c], n, value,
+                       none, none);
     }
+    Put(value, block.value + 4 * n);
   }
-  for (std::size_t r = 0; r < grids.regular.size(); ++r) {
-    const QueryRegular& wave = grids.regular[r];
-    for (std::size_t n = 0; n < kB; n += hn::Lanes(d)) {
+  for (std::size_t n = 0; n < kB; n += hn::Lanes(d)) {
+    V x, y, z, none;
+    hn::LoadInterleaved4(d, block.value + 4 * n, x, y, z, none);
+    for (std::size_t r = 0; r < grids.regular.size(); ++r) {
+      const QueryRegular& wave = grids.regular[r];
       V sine, cosine;
       RegularPhase(wave, block.turns[r], block, n, sine, cosine);
-      for (int f = 0; f < 5; ++f) {
-        const V wave_part = f < 2 ? hn::Neg(sine) : cosine;
-        AddTo(block.sum[f] + n, hn::Mul(FactorOf(wave, kFields[f]), wave_part));
-      }
-      AddTo(block.sum[5] + n, hn::Mul(FactorOf(wave, Field::kVelocityX), cosine));
-      AddTo(block.sum[6] + n, hn::Mul(FactorOf(wave, Field::kVelocityY), cosine));
-      AddTo(block.sum[7] + n, hn::Neg(hn::Mul(FactorOf(wave, Field::kVelocityZ), sine)));
+      x = hn::Add(x, hn::Mul(FactorOf(wave, Field::kVelocityX), cosine));
+      y = hn::Add(y, hn::Mul(FactorOf(wave, Field::kVelocityY), cosine));
+      z = hn::Sub(z, hn::Mul(FactorOf(wave, Field::kVelocityZ), sine));
     }
+    hn::Store(x, d, block.velocity[0] + n);
+    hn::Store(y, d, block.velocity[1] + n);
+    hn::Store(z, d, block.velocity[2] + n);
   }
 }
 
@@ -445,35 +501,54 @@ void FinishBlockTarget(const QueryGrids& grids, std::span<const Vec2d> points,
     block.d_x[n] = sample.displacement_x_m;
     block.d_y[n] = sample.displacement_y_m;
   }
-  SumNormalFields(grids, block);
+  SelectAll(points.size(), block);
+  ReadSpline(grids, block);
+  const bool velocity = grids.detail == QueryDetail::kVelocity;
+  if (velocity) ReadVelocity(grids, block);
   const D d;
   const V one = hn::Set(d, 1.0f);
   for (std::size_t n = 0; n < kB; n += hn::Lanes(d)) {
-    const V sx = hn::Load(d, block.sum[0] + n), sy = hn::Load(d, block.sum[1] + n);
-    const V xx = hn::Add(one, hn::Load(d, block.sum[2] + n)),
-            yy = hn::Add(one, hn::Load(d, block.sum[3] + n));
-    const V xy = hn::Load(d, block.sum[4] + n);
-    // (xx, xy, sx) x (xy, yy, sy)
-    const V nx = hn::Sub(hn::Mul(xy, sy), hn::Mul(sx, yy));
+    const auto load = [&](Sum sum) HWY_ATTR { return hn::Load(d, block.sum[sum] + n); };
+    const V xx = hn::Add(one, load(kJxx)), yy = hn::Add(one, load(kJyy));
+    const V xy = load(kJxy), yx = load(kJyx), sx = load(kSlopeX), sy = load(kSlopeY);
+    // The surface's tangents (xx, yx, sx) x (xy, yy, sy)
+    const V nx = hn::Sub(hn::Mul(yx, sy), hn::Mul(sx, yy));
     const V ny = hn::Sub(hn::Mul(sx, xy), hn::Mul(xx, sy));
-    const V nz = hn::Sub(hn::Mul(xx, yy), hn::Mul(xy, xy));
+    const V nz = hn::Sub(hn::Mul(xx, yy), hn::Mul(xy, yx));
     const V length = hn::Sqrt(hn::Add(hn::Add(hn::Mul(nx, nx), hn::Mul(ny, ny)), hn::Mul(nz, nz)));
     const V scale = hn::Div(one, hn::Max(length, hn::Set(d, 1e-20f)));
     hn::Store(hn::Mul(nx, scale), d, block.sum[0] + n);
     hn::Store(hn::Mul(ny, scale), d, block.sum[1] + n);
     hn::Store(hn::Mul(nz, scale), d, block.sum[2] + n);
   }
-  const bool velocity = grids.detail == QueryDetail::kVelocity;
   for (std::size_t n = 0; n < points.size(); ++n) {
     SurfaceSample& sample = out[n];
     sample.normal_x = block.sum[0][n];
     sample.normal_y = block.sum[1][n];
     sample.normal_z = block.sum[2][n];
     if (!velocity) continue;
-    sample.velocity_x_m_per_s = block.sum[5][n] + static_cast<float>(grids.current_m_per_s.x);
-    sample.velocity_y_m_per_s = block.sum[6][n] + static_cast<float>(grids.current_m_per_s.y);
-    sample.velocity_z_m_per_s = block.sum[7][n];
+    sample.velocity_x_m_per_s = block.velocity[0][n] + static_cast<float>(grids.current_m_per_s.x);
+    sample.velocity_y_m_per_s = block.velocity[1][n] + static_cast<float>(grids.current_m_per_s.y);
+    sample.velocity_z_m_per_s = block.velocity[2][n];
   }
+}
+
+void WriteRecordsTarget(const float* x, const float* y, const float* z, std::size_t size,
+                        float* records) {
+  const D d;
+  const std::size_t pitch = 4 * (size + 4);
+  for (std::size_t v = 0; v < size; ++v) {
+    float* row = records + (v + 1) * pitch;
+    for (std::size_t u = 0; u < size; u += hn::Lanes(d)) {
+      const std::size_t at = v * size + u;
+      hn::StoreInterleaved4(hn::Load(d, x + at), hn::Load(d, y + at), hn::Load(d, z + at),
+                            hn::Zero(d), d, row + 4 * (u + 1));
+    }
+    std::memcpy(row, row + 4 * size, 4 * sizeof(float));
+    std::memcpy(row + 4 * (size + 1), row + 4, 2 * 4 * sizeof(float));
+  }
+  std::memcpy(records, records + size * pitch, pitch * sizeof(float));
+  std::memcpy(records + (size + 1) * pitch, records + pitch, 2 * pitch * sizeof(float));
 }
 
 }  // namespace HWY_NAMESPACE
@@ -487,23 +562,15 @@ HWY_AFTER_NAMESPACE();
 #include "common/sea/constants.h"
 
 namespace onesea::sea {
+
 HWY_EXPORT(SolveBlock);
 HWY_EXPORT(FinishBlockTarget);
+HWY_EXPORT(WriteRecordsTarget);
 
-void InterleaveDisplacement(const CascadeFields& fields, float* displacement) {
-  const std::size_t size = static_cast<std::size_t>(fields.grid_size()), pitch = size + 1;
-  const float* dx = fields.Plane(Field::kDisplacementX).data();
-  const float* dy = fields.Plane(Field::kDisplacementY).data();
-  for (std::size_t y = 0; y < size; ++y) {
-    float* row = displacement + 2 * y * pitch;
-    for (std::size_t x = 0; x < size; ++x) {
-      row[2 * x] = dx[y * size + x];
-      row[2 * x + 1] = dy[y * size + x];
-    }
-    row[2 * size] = row[0];
-    row[2 * size + 1] = row[1];
-  }
-  std::memcpy(displacement + 2 * size * pitch, displacement, 2 * pitch * sizeof(float));
+void WriteRecords(const CascadeFields& fields, const Field (&planes)[3], float* records) {
+  HWY_DYNAMIC_DISPATCH(WriteRecordsTarget)
+  (fields.Plane(planes[0]).data(), fields.Plane(planes[1]).data(), fields.Plane(planes[2]).data(),
+   static_cast<std::size_t>(fields.grid_size()), records);
 }
 
 void SampleBlock(const QueryGrids& grids, std::span<const Vec2d> points,

@@ -19,10 +19,10 @@ struct QueryCascade {
   int grid_size = 0;
   double cosine = 1.0, sine = 0.0;
   double cells_per_m = 1.0;
-  /// ((N + 1) x (N + 1) x 2) displacement x, y; the last row and column repeat the first, so that a
-  /// cell's corners are two runs of four floats. See InterleaveDisplacement().
-  const float* displacement = nullptr;
-  const float* planes[kFieldCount] = {};  ///< null where the snapshot has no such field
+  /// Spline coefficients of displacement x, y, height and nothing; layout in spline.h.
+  const float* waves = nullptr;
+  /// Of velocity x, y, z and nothing; null where the snapshot has none.
+  const float* velocities = nullptr;
 };
 
 /// A regular wave at the snapshot's time.
@@ -38,6 +38,7 @@ struct QueryGrids {
   std::vector<QueryCascade> cascades;
   std::vector<QueryRegular> regular;
   Vec2d current_m_per_s;
+  float curvature_per_m = 0.0f;  ///< rarely exceeded second derivative of the displacement
 };
 
 /// Points in flight at once.
@@ -46,18 +47,14 @@ inline constexpr int kQueryBlock = 64;
 /// The sea at an undisplaced point, summed over cascades and regular waves.
 struct QueryPoint {
   double height_m = 0, dx_m = 0, dy_m = 0;
-  double height_x = 0, height_y = 0;              ///< gradient of the interpolated height
-  double j_xx = 1, j_xy = 0, j_yx = 0, j_yy = 1;  ///< I + gradient of the interpolated displacement
+  double height_x = 0, height_y = 0;              ///< gradient of the height
+  double j_xx = 1, j_xy = 0, j_yx = 0, j_yy = 1;  ///< I + gradient of the displacement
 };
 
-/// Floats of QueryCascade::displacement.
-inline std::size_t DisplacementFloats(int grid_size) {
-  const auto side = static_cast<std::size_t>(grid_size) + 1;
-  return 2 * side * side;
-}
-void InterleaveDisplacement(const CascadeFields& fields, float* displacement);
+/// Three planes of one cascade as records of QueryCascade. Allocates nothing.
+void WriteRecords(const CascadeFields& fields, const Field (&planes)[3], float* records);
 
-/// One point in double: for the few points that the vectorised path hands over. Bilinear as there.
+/// One point in double: for the few points that the vectorised path hands over. The same spline.
 QueryPoint EvaluateQueryPoint(const QueryGrids& grids, Vec2d undisplaced);
 
 /// Answers up to kQueryBlock points; `suspicious[n]` is set where the fixed iteration may have

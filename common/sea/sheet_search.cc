@@ -8,6 +8,7 @@
 #include "common/base/real_math.h"
 #include "common/sea/constants.h"
 #include "common/sea/fold.h"
+#include "common/sea/spline.h"
 
 namespace onesea::sea {
 
@@ -30,44 +31,41 @@ const std::array<Vec2d, kSpokes>& Spokes() {
   return spokes;
 }
 
-struct Interpolated {
-  double value, along_u, along_v;
-};
-
-Interpolated Bilinear(const float* plane, int size, int iu, int iv, double wu, double wv) {
-  const int mask = size - 1;
-  const float* low = plane + static_cast<std::size_t>(iv) * size;
-  const float* high = plane + static_cast<std::size_t>((iv + 1) & mask) * size;
-  const double c00 = low[iu], c10 = low[(iu + 1) & mask], c01 = high[iu],
-               c11 = high[(iu + 1) & mask];
-  const double a = c00 + wu * (c10 - c00), b = c01 + wu * (c11 - c01);
-  return {a + wv * (b - a), (c10 - c00) + wv * ((c11 - c01) - (c10 - c00)), b - a};
-}
-
 void AddCascade(const QueryCascade& cascade, Vec2d p, QueryPoint& sum) {
   const double u = cascade.cells_per_m * (cascade.cosine * p.x + cascade.sine * p.y);
   const double v = cascade.cells_per_m * (cascade.cosine * p.y - cascade.sine * p.x);
   const double whole_u = std::floor(u), whole_v = std::floor(v);
   const double size = cascade.grid_size;
-  const int iu = static_cast<int>(whole_u - size * std::floor(whole_u / size));
-  const int iv = static_cast<int>(whole_v - size * std::floor(whole_v / size));
-  const auto read = [&](Field field) {
-    return Bilinear(cascade.planes[static_cast<int>(field)], cascade.grid_size, iu, iv, u - whole_u,
-                    v - whole_v);
-  };
+  const auto iu = static_cast<std::size_t>(whole_u - size * std::floor(whole_u / size));
+  const auto iv = static_cast<std::size_t>(whole_v - size * std::floor(whole_v / size));
+  const SplineWeights at_u(u - whole_u), at_v(v - whole_v);
+  const std::size_t pitch = RecordPitchFloats(cascade.grid_size);
+  double value[4] = {}, along_u[4] = {}, along_v[4] = {};
+  for (std::size_t b = 0; b < 4; ++b) {
+    const float* row = cascade.waves + (iv + b) * pitch + 4 * iu;
+    double row_value[4] = {}, row_along[4] = {};
+    for (std::size_t a = 0; a < 4; ++a) {
+      for (std::size_t f = 0; f < 4; ++f) {
+        row_value[f] += at_u.value[a] * row[4 * a + f];
+        row_along[f] += at_u.slope[a] * row[4 * a + f];
+      }
+    }
+    for (std::size_t f = 0; f < 4; ++f) {
+      value[f] += at_v.value[b] * row_value[f];
+      along_u[f] += at_v.value[b] * row_along[f];
+      along_v[f] += at_v.slope[b] * row_value[f];
+    }
+  }
   const double c = cascade.cosine * cascade.cells_per_m, s = cascade.sine * cascade.cells_per_m;
-  const Interpolated h = read(Field::kHeight);
-  const Interpolated dx = read(Field::kDisplacementX);
-  const Interpolated dy = read(Field::kDisplacementY);
-  sum.height_m += h.value;
-  sum.height_x += c * h.along_u - s * h.along_v;
-  sum.height_y += s * h.along_u + c * h.along_v;
-  sum.dx_m += dx.value;
-  sum.dy_m += dy.value;
-  sum.j_xx += c * dx.along_u - s * dx.along_v;
-  sum.j_xy += s * dx.along_u + c * dx.along_v;
-  sum.j_yx += c * dy.along_u - s * dy.along_v;
-  sum.j_yy += s * dy.along_u + c * dy.along_v;
+  sum.dx_m += value[0];
+  sum.dy_m += value[1];
+  sum.height_m += value[2];
+  sum.j_xx += c * along_u[0] - s * along_v[0];
+  sum.j_xy += s * along_u[0] + c * along_v[0];
+  sum.j_yx += c * along_u[1] - s * along_v[1];
+  sum.j_yy += s * along_u[1] + c * along_v[1];
+  sum.height_x += c * along_u[2] - s * along_v[2];
+  sum.height_y += s * along_u[2] + c * along_v[2];
 }
 
 void AddRegular(const QueryRegular& regular, Vec2d p, QueryPoint& sum) {
@@ -196,7 +194,7 @@ void SearchRings(const Search& search, const Trial& centre, double first_radius_
     const std::optional<Vec2d> start = CoveredBy(a, b, c);
     if (!start) return;
     const std::optional<Trial> root = search.Solve(*start);
-    // Kinks of the bilinear field may stop Newton; the sheet is there all the same.
+    // Newton may stop at the edge of a fold; the sheet is there all the same.
     sheets.Add(root ? *root : search.Try(*start));
   };
   // A pair of sheets too thin for the triangles: a vertex from which Newton would not go far.
@@ -248,8 +246,8 @@ void FindTopSheet(const QueryGrids& grids, Vec2d point, SurfaceSample& sample) {
     finest_m = std::min(finest_m, 1.0 / cascade.cells_per_m);
   }
   if (!root || MayFold(search, centre)) SearchRings(search, centre, finest_m, !root, sheets);
-  // No sheet at all is possible only where kinks of the bilinear field stop Newton: the nearest try
-  // answers, and its residual tells.
+  // No sheet at all is possible only where Newton stopped everywhere: the nearest try answers, and
+  // its residual tells.
   const Trial& top = sheets.count() > 0 ? sheets.Top() : centre;
   sample.height_m = static_cast<float>(top.at.height_m);
   sample.displacement_x_m = static_cast<float>(point.x - top.p.x);

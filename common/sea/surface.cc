@@ -34,8 +34,9 @@ std::span<float> CascadeFields::MutablePlane(Field field) {
 }
 
 struct Synthesiser::Impl {
-  Impl(std::shared_ptr<const Components> components, int cascade, int grid_size, FieldSet fields)
-      : fields(fields), evolver(std::move(components), cascade, grid_size, fields) {}
+  Impl(std::shared_ptr<const Components> components, int cascade, int grid_size, FieldSet fields,
+       PlaneKind planes)
+      : fields(fields), evolver(std::move(components), cascade, grid_size, fields, planes) {}
 
   struct Pair {
     Field real_part;
@@ -55,7 +56,7 @@ struct Synthesiser::Impl {
 };
 
 Synthesiser::Synthesiser(std::shared_ptr<const Components> components, int cascade, int grid_size,
-                         FieldSet fields, TransformKind transform) {
+                         FieldSet fields, TransformKind transform, PlaneKind planes) {
   ONESEA_CHECK(components != nullptr);
   ONESEA_CHECK(cascade >= 0 && cascade < static_cast<int>(components->cascades.size()))
       << "cascade " << cascade;
@@ -66,7 +67,7 @@ Synthesiser::Synthesiser(std::shared_ptr<const Components> components, int casca
   ONESEA_CHECK(TransformAvailable(transform))
       << "this build has no FFTW: configure with -DONESEA_WITH_FFTW=ON or use the own transform";
 
-  impl_ = std::make_unique<Impl>(std::move(components), cascade, grid_size, fields);
+  impl_ = std::make_unique<Impl>(std::move(components), cascade, grid_size, fields, planes);
   impl_->grid_size = grid_size;
   std::vector<Field> list;
   for (int f = 0; f < kFieldCount; ++f) {

@@ -51,6 +51,11 @@ inline constexpr FieldSet kVelocityFields =
 
 enum class TransformKind : std::uint8_t { kOwn = 1, kFftw = 2 };
 
+/// What the planes hold. kSplineCoefficients: coefficients of the cubic B-spline through the samples,
+/// for whoever reads between them (see spline.h); free, since they differ from the samples by a
+/// factor per wave.
+enum class PlaneKind : std::uint8_t { kSamples = 1, kSplineCoefficients = 2 };
+
 /// False for kFftw in a build without ONESEA_WITH_FFTW; asking for it there is a CHECK failure.
 bool TransformAvailable(TransformKind kind);
 
@@ -83,7 +88,8 @@ class Synthesiser {
   /// `grid_size`: 64, 128, ..., 1024; waves at or above its Nyquist index are left out, see
   /// OmittedVariance(). CHECKs the arguments. Allocates everything it will ever need.
   Synthesiser(std::shared_ptr<const Components> components, int cascade, int grid_size,
-              FieldSet fields, TransformKind transform = TransformKind::kOwn);
+              FieldSet fields, TransformKind transform = TransformKind::kOwn,
+              PlaneKind planes = PlaneKind::kSamples);
   ~Synthesiser();
   Synthesiser(Synthesiser&&) noexcept;
   Synthesiser& operator=(Synthesiser&&) noexcept;

@@ -9,8 +9,8 @@
 
 /// A fast oracle for point queries: planes of 1024² (tested against the direct sum in surface_test)
 /// read by cubic convolution. Waves have at least 32 samples here, so that it differs from the
-/// direct sum by less than 1e-4 of their amplitude; it shares no code with the queries. Least 8
-/// samples per wave on 256² interpolated linearly err by up to 8e-2.
+/// direct sum by less than 1e-4 of their amplitude; it shares no interpolation with
+/// the queries.
 namespace onesea::sea {
 
 struct FinePoint {

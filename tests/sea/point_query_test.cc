@@ -59,9 +59,9 @@ TEST(PointQuery, AgreesWithTheInvertedDirectSum) {
       const Inverted want = InvertDirectly(*sea, time, points[n], p0);
       ASSERT_LT(want.miss_m, 1e-6);
       if (out[n].folded) continue;
-      EXPECT_NEAR(out[n].height_m, want.at.height_m, 0.02) << n;
-      EXPECT_NEAR(out[n].velocity_z_m_per_s, want.at.velocity_m_per_s.z, 0.1) << n;
-      EXPECT_LT(out[n].residual_m, 1e-3) << n;
+      EXPECT_NEAR(out[n].height_m, want.at.height_m, snapshot->HeightErrorBound()) << n;
+      EXPECT_NEAR(out[n].velocity_z_m_per_s, want.at.velocity_m_per_s.z, 0.005) << n;
+      EXPECT_LT(out[n].residual_m, 5e-4) << n;
     }
   }
 }
@@ -99,8 +99,9 @@ TEST(PointQuery, ErrorBoundHoldsForAMillionPoints) {
   std::printf("bound %.4f m, worst %.4f m, rms %.5f m, %d folded\n", snapshot->HeightErrorBound(),
               worst_m, std::sqrt(sum2 / static_cast<double>(points.size())), folded);
   EXPECT_LT(worst_m, snapshot->HeightErrorBound());
-  // The bound is not idle either.
-  EXPECT_GT(worst_m, 0.3 * snapshot->HeightErrorBound());
+  // The bound is not idle either, most of it being the inversion's share of 1 mm.
+  EXPECT_GT(worst_m, 0.1 * snapshot->HeightErrorBound());
+  EXPECT_LT(snapshot->HeightErrorBound(), 0.002);
   EXPECT_LT(folded, 10);
   EXPECT_GE(checked, 49);
 }
@@ -135,12 +136,12 @@ TEST(PointQuery, ContainsRegularWavesYearsAway) {
     const Inverted want = InvertDirectly(*sea, time, points[n], start);
     ASSERT_LT(want.miss_m, 1e-6);
     EXPECT_NEAR(out[n].height_m, want.at.height_m, snapshot->HeightErrorBound());
-    EXPECT_NEAR(out[n].velocity_x_m_per_s, want.at.velocity_m_per_s.x + 0.7, 0.03);
-    EXPECT_NEAR(out[n].velocity_z_m_per_s, want.at.velocity_m_per_s.z, 0.03);
+    EXPECT_NEAR(out[n].velocity_x_m_per_s, want.at.velocity_m_per_s.x + 0.7, 0.002);
+    EXPECT_NEAR(out[n].velocity_z_m_per_s, want.at.velocity_m_per_s.z, 0.002);
     // The normal is perpendicular to the displaced surface's tangents.
     const double txx = 1 + want.at.jacobian_xx, txy = want.at.jacobian_xy;
     EXPECT_NEAR(out[n].normal_x * txx + out[n].normal_y * txy + out[n].normal_z * want.at.slope_x,
-                0.0, 0.02);
+                0.0, 0.002);
   }
 }
 

@@ -68,15 +68,10 @@ class SheetMesh {
   std::vector<std::vector<std::array<int, 3>>> bins_;
 };
 
-// A sea so steep that crests fold over some per cent of the area, with 16 samples per shortest
-// wave: at 8 the bilinear field is 5 % less curved and the narrowest folds of the exact one are not
-// in it.
+// A sea so steep that crests fold over some per cent of the area.
 TEST(QueryFolds, AreFlaggedAndTheTopSheetAnswers) {
-  const auto sea = FakeSea({.lengths_m = {171.0, 47.0, 13.0},
-                            .hs_m = 5.0,
-                            .choppiness = 1.2,
-                            .peak_rad_per_m = 0.2,
-                            .query_grid_size = 512});
+  const auto sea = FakeSea(
+      {.lengths_m = {171.0, 47.0, 13.0}, .hs_m = 5.0, .choppiness = 1.2, .peak_rad_per_m = 0.2});
   const SimTime time = SimTime::FromSeconds(50);
   const SheetMesh mesh(FineSea(sea, time), 15.0, 0.06);
   SnapshotBuilder builder(sea);
@@ -102,7 +97,7 @@ TEST(QueryFolds, AreFlaggedAndTheTopSheetAnswers) {
   EXPECT_GT(folds, 100);
   // The screening of the vectorised path is no proof: where waves of several scales fold at once it
   // accepts a lower sheet now and then (12 % of the folds of this extreme sea).
-  EXPECT_LT(missed, 0.2 * folds);
+  EXPECT_LT(missed, 0.15 * folds);
   EXPECT_LT(invented, 0.05 * folds);
   EXPECT_LT(lower, 0.03 * folds);
   EXPECT_LT(unsolved, 0.1 * folds);
