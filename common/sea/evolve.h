@@ -28,7 +28,7 @@ namespace onesea::sea {
 class Evolver {
  public:
   Evolver(std::shared_ptr<const Components> components, int cascade, int grid_size, FieldSet fields,
-          PlaneKind planes);
+          PlaneKind planes = PlaneKind::kSamples);
 
   /// Largest |i|, |j| held, at least 1.
   int index_max() const { return index_max_; }
