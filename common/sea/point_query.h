@@ -55,8 +55,8 @@ class SeaSnapshot {
   void Sample(std::span<const Vec2d> points, std::span<SurfaceSample> out) const;
 
   /// Bound [m] of |height_m - exact| for unfolded points: spline interpolation plus inversion, some
-  /// millimetres even in a storm; see point_query.cc for its derivation and for the probability with
-  /// which it holds.
+  /// millimetres even in a storm; see point_query.cc for its derivation and for the probability
+  /// with which it holds.
   double HeightErrorBound() const;
 
  private:

@@ -40,8 +40,8 @@ struct SplineWeights {
 };
 
 /// Layout of records: (N + 3) rows of (N + 4) records of four floats. Row and column are those of
-/// the plane plus one, and the ones beyond it repeat it, so that the coefficients around cell (u, v)
-/// start at record (u, v) and a row of them is 64 contiguous bytes.
+/// the plane plus one, and the ones beyond it repeat it, so that the coefficients around cell
+/// (u, v) start at record (u, v) and a row of them is 64 contiguous bytes.
 inline std::size_t RecordPitchFloats(int grid_size) {
   return 4 * (static_cast<std::size_t>(grid_size) + 4);
 }

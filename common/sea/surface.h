@@ -51,9 +51,9 @@ inline constexpr FieldSet kVelocityFields =
 
 enum class TransformKind : std::uint8_t { kOwn = 1, kFftw = 2 };
 
-/// What the planes hold. kSplineCoefficients: coefficients of the cubic B-spline through the samples,
-/// for whoever reads between them (see spline.h); free, since they differ from the samples by a
-/// factor per wave.
+/// What the planes hold. kSplineCoefficients: coefficients of the cubic B-spline through the
+/// samples, for whoever reads between them (see spline.h); free, since they differ from the samples
+/// by a factor per wave.
 enum class PlaneKind : std::uint8_t { kSamples = 1, kSplineCoefficients = 2 };
 
 /// False for kFftw in a build without ONESEA_WITH_FFTW; asking for it there is a CHECK failure.
