@@ -56,10 +56,10 @@ QueryRegular MakeRegular(const RegularAt& wave, const Recipe& recipe) {
 // factor g_a g_b that is 1 plus its images from beyond the sampling rate. |g - 1| is greatest at
 // the centre between two samples, e = SplineError(); so the error at any point is a sum of waves,
 // Gaussian with at most the variance σ² = Σ E (e_a + e_b + e_a e_b)². The displacement errs
-// likewise by at most λσ along any direction, which moves the point and so changes the height by the slope
-// of the surface in space, taken as at most 1 (a steeper sea folds): together σ √(1 + λ²).
-// kBoundSigmas of that are exceeded by one point in 26 million; the inversion and rounding leave
-// less than kInversionErrorM.
+// likewise by at most λσ along any direction, which moves the point and so changes the height by
+// the slope of the surface in space, taken as at most 1 (a steeper sea folds): together
+// σ √(1 + λ²). kBoundSigmas of that are exceeded by one point in 26 million; the inversion and
+// rounding leave less than kInversionErrorM.
 constexpr double kBoundSigmas = 5.5;
 constexpr double kInversionErrorM = 1e-3;
 // Second derivatives of the displacement beyond this many of their deviations are rare.
