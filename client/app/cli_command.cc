@@ -117,8 +117,8 @@ absl::Status RunCommand(const CliCommand& command, const Arguments& arguments,
   absl::Status status = command.run(context, arguments);
   if (!absl::IsUnavailable(status)) return status;
   return absl::UnavailableError(absl::StrFormat(
-      "no server answers at %s; start one with onesea-server, or name another with --server",
-      context.server));
+      "no server answers at %s; start one with onesea-server, or name another with --server (%s)",
+      context.server, status.message()));
 }
 
 }  // namespace
