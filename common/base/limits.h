@@ -29,6 +29,19 @@ inline constexpr double kCurrentMaxMPerS = 10.0;
 inline constexpr double kChoppinessMax = 1.5;
 inline constexpr int kTickRateMaxHz = 1000;
 
+// Terrain.
+inline constexpr double kTerrainCellMinM = 0.01;
+inline constexpr double kTerrainCellMaxM = 10'000.0;
+inline constexpr int kTerrainSideMax = 4096;  // samples; 64 MB at most
+
+// Interaction layer.
+inline constexpr int kRegionSideMin = 64;    // cells; room for two absorbing borders
+inline constexpr int kRegionSideMax = 1024;  // a step of the largest takes some milliseconds
+inline constexpr int kRegionSideStep = 32;   // side of a tile on the wire
+inline constexpr double kRegionCellMinM = 0.05;
+inline constexpr double kRegionCellMaxM = 1000.0;
+inline constexpr int kRegionsMax = 16;  // of one session
+
 // Service.
 inline constexpr int kSessionsMax = 64;
 inline constexpr int kSessionNameLengthMax = 64;
