@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 /// Every limit that a person or the network can meet, with the reason for its size. Errors print
@@ -41,6 +42,22 @@ inline constexpr int kRegionSideStep = 32;   // side of a tile on the wire
 inline constexpr double kRegionCellMinM = 0.05;
 inline constexpr double kRegionCellMaxM = 1000.0;
 inline constexpr int kRegionsMax = 16;  // of one session
+
+// Bodies.
+inline constexpr int kBodiesMax = 1024;                      // of one session
+inline constexpr std::size_t kHullTrianglesMax = 20'000;     // 0.6 ms a step at 30 ns
+inline constexpr std::int64_t kHullFileBytesMax = 16 << 20;  // 20 000 triangles as text STL: 5 MB
+inline constexpr double kHullSizeMinM = 0.01;
+inline constexpr double kHullSizeMaxM = 1000.0;
+inline constexpr double kBodyMassMinKg = 1e-3;
+inline constexpr double kBodyMassMaxKg = 1e9;
+inline constexpr double kBodySpeedMaxMPerS = 200.0;  // faster is cut
+inline constexpr double kBodySpinMaxRadPerS = 50.0;
+inline constexpr double kBodyForceMaxN = 1e10;  // of one command
+inline constexpr int kThrustersMax = 8;
+inline constexpr int kRuddersMax = 4;
+inline constexpr int kRopesMax = 1024;           // of one session
+inline constexpr int kBodyContactPairsMax = 12;  // of one body; more touch nothing
 
 // Service.
 inline constexpr int kSessionsMax = 64;

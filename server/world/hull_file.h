@@ -1,0 +1,20 @@
+#pragma once
+
+#include "absl/status/statusor.h"
+#include "absl/strings/string_view.h"
+#include "server/world/hull.h"
+
+/// Meshes from the bytes of a file: STL (text or binary) and OBJ (polygons are cut into triangles;
+/// groups, materials, normals and texture are ignored).
+///
+/// The mesh is welded (hull.h) but not validated. InvalidArgument naming the line or triangle that
+/// cannot be read; more than kHullFileBytesMax or kHullTrianglesMax is refused. Units are metres.
+namespace onesea::world {
+
+absl::StatusOr<TriangleMesh> ReadStl(absl::string_view bytes);
+absl::StatusOr<TriangleMesh> ReadObj(absl::string_view bytes);
+
+/// By content: OBJ unless it looks like STL.
+absl::StatusOr<TriangleMesh> ReadHullFile(absl::string_view bytes);
+
+}  // namespace onesea::world

@@ -1,0 +1,124 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+
+#include "common/base/real_math.h"
+#include "common/base/vec.h"
+
+/// Rotations, poses and the small matrices of rigid bodies. Plain doubles in a fixed order of
+/// operations; sine and cosine come from real_math, so the bits don't depend on the machine's libm.
+namespace onesea::world {
+
+inline Vec3d Cross(Vec3d a, Vec3d b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+inline bool IsFinite(Vec3d v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+/// Row-major 3 x 3.
+struct Mat3d {
+  std::array<double, 9> m{};
+
+  double& operator()(int row, int column) { return m[3 * row + column]; }
+  double operator()(int row, int column) const { return m[3 * row + column]; }
+  friend Vec3d operator*(const Mat3d& a, Vec3d v) {
+    return {a.m[0] * v.x + a.m[1] * v.y + a.m[2] * v.z, a.m[3] * v.x + a.m[4] * v.y + a.m[5] * v.z,
+            a.m[6] * v.x + a.m[7] * v.y + a.m[8] * v.z};
+  }
+  /// Transpose times vector: world to body where the matrix is body to world.
+  Vec3d TransposeTimes(Vec3d v) const {
+    return {m[0] * v.x + m[3] * v.y + m[6] * v.z, m[1] * v.x + m[4] * v.y + m[7] * v.z,
+            m[2] * v.x + m[5] * v.y + m[8] * v.z};
+  }
+  friend bool operator==(const Mat3d&, const Mat3d&) = default;
+};
+
+/// Unit quaternion, body to world.
+struct Quatd {
+  double w = 1.0, x = 0.0, y = 0.0, z = 0.0;
+  friend bool operator==(const Quatd&, const Quatd&) = default;
+};
+
+inline bool IsFinite(const Quatd& q) {
+  return std::isfinite(q.w) && std::isfinite(q.x) && std::isfinite(q.y) && std::isfinite(q.z);
+}
+/// Identity where the norm is zero or not finite.
+inline Quatd Normalised(const Quatd& q) {
+  const double norm = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
+  if (!(norm > 1e-12) || !std::isfinite(norm)) return {};
+  return {q.w / norm, q.x / norm, q.y / norm, q.z / norm};
+}
+inline Quatd operator*(const Quatd& a, const Quatd& b) {
+  return {
+      a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z, a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
+      a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x, a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
+}
+inline Mat3d ToMatrix(const Quatd& q) {
+  return {
+      {1 - 2 * (q.y * q.y + q.z * q.z), 2 * (q.x * q.y - q.w * q.z), 2 * (q.x * q.z + q.w * q.y),
+       2 * (q.x * q.y + q.w * q.z), 1 - 2 * (q.x * q.x + q.z * q.z), 2 * (q.y * q.z - q.w * q.x),
+       2 * (q.x * q.z - q.w * q.y), 2 * (q.y * q.z + q.w * q.x), 1 - 2 * (q.x * q.x + q.y * q.y)}};
+}
+/// Rotation by `angle_rad` about the unit vector `axis`, counter-clockwise seen from its tip.
+inline Quatd AboutAxis(Vec3d axis, double angle_rad) {
+  const real::SinCosPair half = real::SinCos(0.5 * angle_rad);
+  return {half.cos, half.sin * axis.x, half.sin * axis.y, half.sin * axis.z};
+}
+
+/// Where a body is: its centre of mass and its turn.
+struct Pose {
+  Vec3d centre_m;  ///< centre of mass, world
+  Quatd turn;      ///< body to world
+  friend bool operator==(const Pose&, const Pose&) = default;
+};
+
+/// Linear part first: surge, sway, heave, roll, pitch, yaw, along and about the body's own axes.
+using Vec6 = std::array<double, 6>;
+using Mat6 = std::array<Vec6, 6>;  ///< rows
+
+inline Vec6 Join(Vec3d linear, Vec3d angular) {
+  return {linear.x, linear.y, linear.z, angular.x, angular.y, angular.z};
+}
+inline Vec3d Linear(const Vec6& v) { return {v[0], v[1], v[2]}; }
+inline Vec3d Angular(const Vec6& v) { return {v[3], v[4], v[5]}; }
+inline Vec6 operator*(const Mat6& a, const Vec6& v) {
+  Vec6 out{};
+  for (int i = 0; i < 6; ++i) {
+    for (int j = 0; j < 6; ++j) out[i] += a[i][j] * v[j];
+  }
+  return out;
+}
+inline double Dot(const Vec6& a, const Vec6& b) {
+  double sum = 0.0;
+  for (int i = 0; i < 6; ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+/// Solves a x = b by elimination with row pivots. False where `a` is singular or not finite; then
+/// `b` is undefined. `b` becomes x.
+inline bool SolveInPlace(Mat6 a, Vec6& b) {
+  for (int column = 0; column < 6; ++column) {
+    int pivot = column;
+    for (int row = column + 1; row < 6; ++row) {
+      if (std::abs(a[row][column]) > std::abs(a[pivot][column])) pivot = row;
+    }
+    if (!(std::abs(a[pivot][column]) > 0.0)) return false;
+    std::swap(a[pivot], a[column]);
+    std::swap(b[pivot], b[column]);
+    for (int row = column + 1; row < 6; ++row) {
+      const double factor = a[row][column] / a[column][column];
+      for (int k = column; k < 6; ++k) a[row][k] -= factor * a[column][k];
+      b[row] -= factor * b[column];
+    }
+  }
+  for (int row = 5; row >= 0; --row) {
+    for (int k = row + 1; k < 6; ++k) b[row] -= a[row][k] * b[k];
+    b[row] /= a[row][row];
+    if (!std::isfinite(b[row])) return false;
+  }
+  return true;
+}
+
+}  // namespace onesea::world
