@@ -35,9 +35,9 @@ struct SolidProperties {
 SolidProperties ComputeSolid(const TriangleMesh& mesh);
 
 /// OK, or InvalidArgument saying what is wrong: no triangles, too many (kHullTrianglesMax), an
-/// index without a vertex, coordinates that are not finite or too large (kHullSizeMaxM), open edges,
-/// neighbours of opposite sense, faces pointing inwards, no volume. Self-intersections are not
-/// looked for: the displaced volume then counts the overlap twice.
+/// index without a vertex, coordinates that are not finite or too large (kHullSizeMaxM), open
+/// edges, neighbours of opposite sense, faces pointing inwards, no volume. Self-intersections are
+/// not looked for: the displaced volume then counts the overlap twice.
 absl::Status ValidateMesh(const TriangleMesh& mesh);
 
 /// Joins vertices of equal coordinates and drops triangles that lose a corner by it: STL files
