@@ -1,0 +1,41 @@
+#include "server/world/water_patch.h"
+
+#include "common/base/check.h"
+#include "common/base/real_math.h"
+#include "server/world/water_sample-inl.h"
+
+namespace onesea::world {
+
+void WaterPatch::SetCalm() {
+  columns = rows = bands = 0;
+  samples.clear();
+}
+
+void WaterPatch::Resize(int new_columns, int new_rows, int new_bands) {
+  ONESEA_CHECK(new_columns >= 2 && new_rows >= 2 && new_bands >= 1 && new_bands <= kWaterBandsMax)
+      << new_columns << " x " << new_rows << " x " << new_bands;
+  columns = new_columns;
+  rows = new_rows;
+  bands = new_bands;
+  samples.resize(static_cast<std::size_t>(4) * bands * columns * rows);
+}
+
+WaterSampler::WaterSampler(const WaterPatch& of)
+    : patch(&of), cells_per_m(1.0 / of.cell_m), wavenumber{}, bottom_image{}, deep(true) {
+  // Longer than that, a wave's vertical velocity is linear in depth anyway, and 1 - image keeps its
+  // digits.
+  constexpr double kWavenumberDepthMin = 1e-2;
+  for (int b = 0; b < of.bands; ++b) {
+    double k = of.wavenumber_rad_per_m[b];
+    if (k * of.depth_m < kWavenumberDepthMin) k = kWavenumberDepthMin / of.depth_m;
+    wavenumber[b] = static_cast<float>(k);
+    bottom_image[b] = static_cast<float>(real::Exp(-2.0 * k * of.depth_m));
+    deep = deep && bottom_image[b] < 1e-7f;
+  }
+}
+
+WaterPoint SampleWater(const WaterSampler& sampler, Vec3d place) {
+  return internal::Sample(sampler, place);
+}
+
+}  // namespace onesea::world
