@@ -17,8 +17,8 @@
 namespace onesea::world {
 
 /// Of the pieces' velocity relative to the water's own; all dimensionless, on rho/2.
-///   normal      -(c |w_n| + lift |w|) w_n n   per area; c = pressure where the piece moves into the
-///               water, suction where it moves away; lift only where it moves in
+///   normal      -(c |w_n| + lift |w|) w_n n   per area; c = pressure where the piece moves into
+///               the water, suction where it moves away; lift only where it moves in
 ///   tangential  -friction |w| w_t             per area
 struct DragCoefficients {
   double friction = 0.004;  ///< [0, 1]; the ITTC line gives 0.002-0.004 for boats
