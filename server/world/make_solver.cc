@@ -1,0 +1,19 @@
+#include "absl/strings/str_cat.h"
+#include "server/world/wave_equation.h"
+#include "server/world/wave_solver.h"
+
+namespace onesea::world {
+
+absl::StatusOr<std::unique_ptr<WaveSolver>> MakeSolver(const SolverSpec& spec) {
+  switch (spec.kind) {
+    case SolverKind::kWaveEquation:
+      return MakeWaveEquation(spec);
+    case SolverKind::kIwave:
+    case SolverKind::kShallowWater:
+      break;
+  }
+  return absl::InvalidArgumentError(
+      absl::StrCat("region.kind = ", static_cast<int>(spec.kind), " is not a solver"));
+}
+
+}  // namespace onesea::world

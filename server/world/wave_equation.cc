@@ -1,0 +1,109 @@
+#include "server/world/wave_equation.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/base/check.h"
+#include "common/sea/constants.h"
+#include "server/world/potential_solver.h"
+
+namespace onesea::world {
+namespace {
+
+class WaveEquation final : public PotentialSolver {
+ public:
+  WaveEquation(const SolverSpec& spec, int substeps, double speed_m_per_s)
+      : PotentialSolver(spec, substeps, speed_m_per_s) {
+    const double per_depth = SubstepS() / (spec.cells.cell_m * spec.cells.cell_m);
+    uniform_ = static_cast<float>(per_depth * spec.depth_m);
+    if (spec.terrain != nullptr) BuildFaces(per_depth);
+  }
+
+ private:
+  // Before the faces: the west face of the very first cell is read, times zero.
+  static constexpr std::size_t kBefore = 16;
+
+  void BuildFaces(double per_depth) {
+    const int columns = spec().cells.columns, rows = spec().cells.rows;
+    east_ = sea::AllocateZeros<float>(spec().cells.cells() + kBefore);
+    north_ = sea::AllocateZeros<float>(spec().cells.cells() + kBefore);
+    const auto face = [&](int column, int row, int to_column, int to_row) {
+      if (!Wet(column, row) || !Wet(to_column, to_row)) return 0.0f;
+      return static_cast<float>(
+          per_depth * std::max(0.0, DepthAt(0.5 * (column + to_column), 0.5 * (row + to_row))));
+    };
+    for (int row = 0; row < rows; ++row) {
+      for (int column = 0; column < columns; ++column) {
+        const std::size_t at = kBefore + static_cast<std::size_t>(row) * columns + column;
+        if (column + 1 < columns) east_[at] = face(column, row, column + 1, row);
+        if (row + 1 < rows) north_[at] = face(column, row, column, row + 1);
+      }
+    }
+  }
+
+  HeightPass Pass(WavePlane* phi) const {
+    HeightPass pass{.psi = phi, .uniform = uniform_};
+    if (east_ != nullptr) {
+      pass.east = east_.get() + kBefore;
+      pass.north = north_.get() + kBefore;
+    }
+    return pass;
+  }
+
+  void Advance(const GridPass& grid, const PotentialPass& potential) override {
+    AdvanceBoth(grid, potential, Pass(potential.phi));
+  }
+
+  void Outflow(std::span<float> m_per_s) const override {
+    const int columns = spec().cells.columns, rows = spec().cells.rows;
+    const auto per_step = static_cast<float>(1.0 / SubstepS());
+    const auto through = [&](int column, int row, bool to_north) {
+      if (column < 0 || row < 0 || (to_north ? row + 1 >= rows : column + 1 >= columns)) {
+        return 0.0f;
+      }
+      const std::size_t at = kBefore + static_cast<std::size_t>(row) * columns + column;
+      const float conductance = east_ == nullptr ? uniform_ : to_north ? north_[at] : east_[at];
+      const float next = to_north ? phi().Row(row + 1)[column] : phi().Row(row)[column + 1];
+      return conductance * (next - phi().Row(row)[column]);
+    };
+    for (int row = 0; row < rows; ++row) {
+      for (int column = 0; column < columns; ++column) {
+        const float gain = through(column - 1, row, false) - through(column, row, false) +
+                           through(column, row - 1, true) - through(column, row, true);
+        m_per_s[static_cast<std::size_t>(row) * columns + column] = per_step * gain;
+      }
+    }
+  }
+
+  float uniform_ = 0.0f;          // sub-step * d / cell²
+  sea::FloatArray east_, north_;  // the same at each face, from kBefore on; null: uniform
+};
+
+double GreatestDepth(const SolverSpec& spec) {
+  if (spec.terrain == nullptr) return spec.depth_m;
+  double greatest = 0.0;
+  for (int row = 0; row < spec.cells.rows; ++row) {
+    for (int column = 0; column < spec.cells.columns; ++column) {
+      greatest = std::max(greatest, -spec.terrain->ElevationAt(spec.cells.PlaceOf(
+                                        spec.cells.west + column, spec.cells.south + row)));
+    }
+  }
+  return greatest;
+}
+
+}  // namespace
+
+absl::StatusOr<std::unique_ptr<WaveSolver>> MakeWaveEquation(const SolverSpec& spec) {
+  ONESEA_RETURN_IF_ERROR(ValidateSolverSpec(spec));
+  const double depth_m = GreatestDepth(spec);
+  if (!(depth_m > 0.0)) {
+    return absl::InvalidArgumentError(
+        "region.depth_m = 0: the wave equation needs a depth, or a terrain under water");
+  }
+  const double speed = std::sqrt(sea::kGravity * depth_m);
+  ONESEA_ASSIGN_OR_RETURN(const int substeps,
+                          SubstepsFor(spec, std::sqrt(8.0) * speed / spec.cells.cell_m));
+  return std::make_unique<WaveEquation>(spec, substeps, speed);
+}
+
+}  // namespace onesea::world
