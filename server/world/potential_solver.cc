@@ -11,9 +11,9 @@
 namespace onesea::world {
 namespace {
 
-// ∫σ dx / c over the border is a third of this: what is left of a wave that is reflected by the
-// rim is exp(-2/3 of it), and steeper growth would reflect by itself.
-constexpr double kBorderStrength = 10.0;
+// ∫σ dx / c over the border is a third of this. More would reflect long waves by itself: a border
+// that is short beside the wave is best when it is weak and its rim matches.
+constexpr double kBorderStrength = 3.0;
 // ω times sub-step at most; 2 would be the limit of stability.
 constexpr double kOmegaStepMax = 1.8;
 
@@ -53,6 +53,10 @@ PotentialSolver::PotentialSolver(const SolverSpec& spec, int substeps, double bo
                             border_speed_m_per_s, SubstepS())),
       keep_y_(BorderFactors(spec.cells.rows, spec.edge_cells, spec.cells.cell_m,
                             border_speed_m_per_s, SubstepS())) {
+  if (spec.edge_cells > 0) {
+    rim_keep_ =
+        static_cast<float>(1.0 / (1.0 + border_speed_m_per_s * SubstepS() / spec.cells.cell_m));
+  }
   if (spec_.terrain == nullptr) return;
   wet_.reserve(cells_);
   for (int row = 0; row < spec_.cells.rows; ++row) {
@@ -92,6 +96,7 @@ void PotentialSolver::Step(const StepForcing& forcing) {
       .phi = &phi_};
   for (int n = 0; n < substeps_; ++n) {
     Advance(Grid(), potential);
+    DrainRim();
     HoldSolids(forcing);
   }
 }
@@ -101,6 +106,21 @@ void PotentialSolver::AddSource(std::span<const float> source_m) {
   if (source_m.empty() || !HasLand()) return;
   for (std::size_t n = 0; n < cells_; ++n) {
     if (wet_[n] == 0) height_[n] = 0.0f;
+  }
+}
+
+void PotentialSolver::DrainRim() {
+  if (rim_keep_ == 1.0f) return;
+  const int columns = spec_.cells.columns, rows = spec_.cells.rows;
+  float* last_row = height_.get() + static_cast<std::size_t>(rows - 1) * columns;
+  for (int column = 0; column < columns; ++column) {
+    height_[column] *= rim_keep_;
+    last_row[column] *= rim_keep_;
+  }
+  for (int row = 0; row < rows; ++row) {
+    float* cells = height_.get() + static_cast<std::size_t>(row) * columns;
+    cells[0] *= rim_keep_;
+    cells[columns - 1] *= rim_keep_;
   }
 }
 

@@ -30,11 +30,12 @@ struct SolverSpec {
 
 /// What acts on the water in one step. Spans have one float per cell, or none for "nothing".
 struct StepForcing {
-  std::span<const float> source_m;         ///< height added in this step (volume per cell area)
-  std::span<const float> pressure_head_m;  ///< p / (rho g) on the surface during this step
-  std::span<const float> solid;            ///< share of the cell that a hull or wall fills, 0..1
-  std::span<const float> rest_height_m;    ///< what solid cells are held at: minus the incident sea
-                                           ///< where the total must stand still; none: 0
+  std::span<const float> source_m = {};  ///< height added in this step (volume per cell area)
+  std::span<const float> pressure_head_m = {};  ///< p / (rho g) on the surface during this step
+  std::span<const float> solid = {};  ///< share of the cell that a hull or wall fills, 0..1
+  std::span<const float> rest_height_m =
+      {};  ///< what solid cells are held at: minus the incident sea
+           ///< where the total must stand still; none: 0
 };
 
 /// One solver on one rectangle; heights are relative to the mean water level and add to the
