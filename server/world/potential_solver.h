@@ -17,9 +17,9 @@
 /// ω step < 2. Pressure and surface velocity (∇φ, Λφ) come for free.
 ///
 /// Border: over `edge_cells` both fields fall as exp(-σ t), σ growing as the square of the way in,
-///   and the outermost cells drain as if the wave ran on (c η leaves through the rim), which swallows
-///   what is too long for the border. Of a ring wave 16 cells wide borders send back 2-8 % where it
-///   is 10 to 20 cells long (tests/world/linear_solvers_test.cc); of a wave of 40 cells about 17 %.
+///   and the outermost cells drain as if the wave ran on (c η leaves through the rim), which
+///   swallows what is too long for the border. Borders 16 cells wide send back 2-8 % of a ring wave
+///   that is 10 to 20 cells long (tests/world/linear_solvers_test.cc), about 17 % of 40 cells.
 /// Damping: φ alone falls as exp(-damping t): no stiffness, and a flat offset stays.
 /// Solids: a cell of share s approaches its rest height as (1-s)^(t / kSolidS), whatever the step,
 ///   and its potential fades within kSolidMemoryS: waves reflect there, with their sign turned, as
