@@ -42,6 +42,10 @@ inline constexpr int kRegionSideStep = 32;   // side of a tile on the wire
 inline constexpr double kRegionCellMinM = 0.05;
 inline constexpr double kRegionCellMaxM = 1000.0;
 inline constexpr int kRegionsMax = 16;  // of one session
+inline constexpr std::int64_t kRegionCellsMax =
+    4 * 1024 * 1024;                             // of one session; 56 MB at a viewer
+inline constexpr double kHeightStepMinM = 1e-4;  // heights on the wire reach 32767 steps
+inline constexpr double kHeightStepMaxM = 0.1;
 
 // Bodies.
 inline constexpr int kBodiesMax = 1024;                      // of one session

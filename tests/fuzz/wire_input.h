@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string_view>
+
+/// What a client decodes, from bytes that nobody vouches for.
+namespace onesea::fuzz {
+
+/// The first byte chooses: 0 a blob of tiles, for a viewer that holds the first frames of a sea.
+/// Aborts where what is accepted breaks its promises.
+void DecodeAndCheck(std::string_view input);
+
+}  // namespace onesea::fuzz
