@@ -1,8 +1,31 @@
 #include "common/wire/bounds.h"
 
+#include "absl/strings/escaping.h"
 #include "absl/strings/str_cat.h"
 
 namespace onesea::wire {
+namespace {
+
+// Bytes of the character that `text` begins with; 0 if it is none, or a control character.
+// Source: RFC 3629, section 4.
+std::size_t CharacterBytes(std::string_view text) {
+  const auto byte = [&text](std::size_t n) { return static_cast<unsigned char>(text[n]); };
+  const auto tail = [&](std::size_t n) { return n < text.size() && (byte(n) & 0xc0) == 0x80; };
+  const unsigned lead = byte(0);
+  if (lead < 0x80) return lead >= 0x20 && lead != 0x7f ? 1 : 0;
+  if (!tail(1)) return 0;
+  if (lead >= 0xc2 && lead < 0xe0) return 2;
+  if (!tail(2)) return 0;
+  if (lead == 0xe0) return byte(1) >= 0xa0 ? 3 : 0;  // else a shorter form would do
+  if (lead == 0xed) return byte(1) < 0xa0 ? 3 : 0;   // else half of a UTF-16 pair
+  if (lead > 0xe0 && lead < 0xf0) return 3;
+  if (!tail(3)) return 0;
+  if (lead == 0xf0) return byte(1) >= 0x90 ? 4 : 0;
+  if (lead == 0xf4) return byte(1) < 0x90 ? 4 : 0;
+  return lead > 0xf0 && lead < 0xf4 ? 4 : 0;
+}
+
+}  // namespace
 
 absl::Status CheckReal(std::string_view prefix, std::string_view field, double value, double min,
                        double max) {
@@ -23,6 +46,24 @@ absl::Status CheckSize(std::string_view prefix, std::string_view field, std::siz
   if (size <= max) return absl::OkStatus();
   return absl::InvalidArgumentError(
       absl::StrCat(Text(prefix), Text(field), ": ", size, " elements, the limit is ", max));
+}
+
+absl::Status CheckText(std::string_view prefix, std::string_view field, std::string_view text,
+                       std::size_t max) {
+  if (text.size() > max) {
+    return absl::InvalidArgumentError(
+        absl::StrCat(Text(prefix), Text(field), ": ", text.size(), " bytes, the limit is ", max));
+  }
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t bytes = CharacterBytes(text.substr(at));
+    if (bytes == 0) {
+      return absl::InvalidArgumentError(absl::StrCat(Text(prefix), Text(field), ": '",
+                                                     absl::CHexEscape(Text(text)), "', byte ", at,
+                                                     " begins no printable character of UTF-8"));
+    }
+    at += bytes;
+  }
+  return absl::OkStatus();
 }
 
 }  // namespace onesea::wire

@@ -23,4 +23,9 @@ absl::Status CheckInteger(std::string_view prefix, std::string_view field, std::
 absl::Status CheckSize(std::string_view prefix, std::string_view field, std::size_t size,
                        std::size_t max);
 
+/// At most `max` bytes of UTF-8 without control characters: what a protobuf string can carry and a
+/// terminal may show.
+absl::Status CheckText(std::string_view prefix, std::string_view field, std::string_view text,
+                       std::size_t max);
+
 }  // namespace onesea::wire

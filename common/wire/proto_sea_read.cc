@@ -187,7 +187,7 @@ absl::StatusOr<sea::SeaState> FromProto(const v1::SeaState& proto, std::string_v
                                         const std::string& folder) {
   sea::SeaState sea;
   sea.name = proto.name();
-  ONESEA_RETURN_IF_ERROR(CheckSize(prefix, "name", sea.name.size(), kSeaNameLengthMax));
+  ONESEA_RETURN_IF_ERROR(CheckText(prefix, "name", sea.name, kSeaNameLengthMax));
   ONESEA_RETURN_IF_ERROR(CheckSize(
       prefix, "systems", static_cast<std::size_t>(proto.systems_size()), kWaveSystemsMax));
   sea.systems.resize(static_cast<std::size_t>(proto.systems_size()));

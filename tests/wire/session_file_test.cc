@@ -39,6 +39,23 @@ TEST(SessionText, FillsInEveryDefault) {
   EXPECT_EQ(sea.wind_to_rad, 0.0);
 }
 
+// Such a name would be written into a welcome that no client can read.
+TEST(SessionText, ANameMustBePrintableUtf8) {
+  const auto read = [](const std::string& name) {
+    return ParseSeaText("name: \"" + name + "\" beaufort: 3", "").status();
+  };
+  for (const char* good :
+       {"Stärke 5", "", "波", "\xf0\x9f\x8c\x8a", "\xed\x9f\xbf", "\xf4\x8f\xbf\xbf"}) {
+    EXPECT_TRUE(read(good).ok()) << read(good);
+  }
+  // Latin-1; cut; an overlong slash; half of a pair; beyond Unicode; a tail alone; escapes.
+  for (const char* bad :
+       {"St\xe4rke", "\xe6\xb3", "\xc0\xaf", "\xe0\x80\xaf", "\xed\xa0\x80", "\xf4\x90\x80\x80",
+        "\xf8\x88\x80\x80\x80", "\x80", "\\033[2J", "\\n", "\\177"}) {
+    EXPECT_THAT(Message(read(bad)), HasSubstr("name: '")) << bad;
+  }
+}
+
 TEST(SessionText, StatedWindStands) {
   const absl::StatusOr<sea::SeaState> sea = ParseSeaText(
       "systems { jonswap { hs_m: 2 tp_s: 12 } } wind_speed_m_per_s: 0 wind { from_deg: 180 }", "");
