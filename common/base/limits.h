@@ -27,6 +27,7 @@ inline constexpr double kPeriodMaxS = 60.0;
 inline constexpr double kDepthMinM = 0.1;
 inline constexpr double kDepthMaxM = 12000.0;  // deeper is infinite for every wave here
 inline constexpr double kCurrentMaxMPerS = 10.0;
+inline constexpr double kLoopPeriodMinS = 1.0;  // 0 is no loop; a shorter one would stop the waves
 inline constexpr double kChoppinessMax = 1.5;
 inline constexpr int kTickRateMaxHz = 1000;
 

@@ -131,7 +131,10 @@ absl::Status ValidateRecipe(const Recipe& recipe) {
   }
   ONESEA_RETURN_IF_ERROR(
       CheckInRange("current speed [m/s]", Norm(recipe.current_m_per_s), 0.0, kCurrentMaxMPerS));
-  ONESEA_RETURN_IF_ERROR(CheckInRange("loop_period_s", recipe.loop_period_s, 0.0, kQueryTimeMaxS));
+  if (recipe.loop_period_s != 0.0) {
+    ONESEA_RETURN_IF_ERROR(
+        CheckInRange("loop_period_s", recipe.loop_period_s, kLoopPeriodMinS, kQueryTimeMaxS));
+  }
   ONESEA_RETURN_IF_ERROR(ValidateAmplitude(recipe.amplitude));
   ONESEA_RETURN_IF_ERROR(CheckInRange("choppiness", recipe.choppiness, 0.0, kChoppinessMax));
   ONESEA_RETURN_IF_ERROR(ValidateCascades(recipe.cascades));

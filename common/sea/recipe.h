@@ -49,7 +49,8 @@ struct Recipe {
   int tick_rate_hz = 60;       ///< divides kFlicksPerSecond
   double depth_m = 0.0;        ///< of flat bottom; 0 = infinitely deep
   Vec2d current_m_per_s;       ///< uniform surface current (east, north)
-  double loop_period_s = 0.0;  ///< > 0: every frequency is rounded to a multiple of 1/loop_period_s
+  double loop_period_s = 0.0;  ///< 0, or at least kLoopPeriodMinS: every frequency is rounded to a
+                               ///< multiple of 1/loop_period_s
   AmplitudeKind amplitude = AmplitudeKind::kFixed;
   double choppiness = 1.0;             ///< lambda [-] in [0, kChoppinessMax]; above 1 crests fold
   std::vector<Cascade> cascades;       ///< 1..kCascadesMax, bands disjoint

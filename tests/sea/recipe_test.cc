@@ -59,6 +59,7 @@ TEST(ValidateRecipe, NamesTheFieldOfEveryBadValue) {
          r.current_m_per_s = {kNan, 0.0};
        }},
       {"loop_period_s", [](Recipe& r) { r.loop_period_s = kInf; }},
+      {"loop_period_s", [](Recipe& r) { r.loop_period_s = 5e-324; }},
       {"amplitude", [](Recipe& r) { r.amplitude = static_cast<AmplitudeKind>(7); }},
       {"choppiness", [](Recipe& r) { r.choppiness = 1.6; }},
       {"cascades", [](Recipe& r) { r.cascades.clear(); }},
