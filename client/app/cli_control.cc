@@ -13,6 +13,9 @@
 namespace onesea::app {
 namespace {
 
+// For people; a server's tick may be any number, so not TimeOfTick().
+double SecondsAt(Tick tick, int tick_rate_hz) { return static_cast<double>(tick) / tick_rate_hz; }
+
 std::string HexText(std::uint64_t hash) { return absl::StrFormat("%016x", hash); }
 
 absl::Status RunWeather(const CliContext& context, const Arguments& arguments) {
@@ -40,8 +43,8 @@ absl::Status RunWeather(const CliContext& context, const Arguments& arguments) {
   const int rate_hz = chosen.info.tick_rate_hz;
   context.out << absl::StreamFormat(
       "%s: the sea turns into '%s' from tick %d (%.3f s) to tick %d (%.3f s)\n", chosen.info.name,
-      sea->name, change.start_tick, TimeOfTick(change.start_tick, rate_hz).Seconds(),
-      change.end_tick, TimeOfTick(change.end_tick, rate_hz).Seconds());
+      sea->name, change.start_tick, SecondsAt(change.start_tick, rate_hz), change.end_tick,
+      SecondsAt(change.end_tick, rate_hz));
   return absl::OkStatus();
 }
 
@@ -55,7 +58,7 @@ absl::Status PrintTick(const CliContext& context, const SessionInfo& info, Tick 
     return absl::OkStatus();
   }
   context.out << absl::StreamFormat("%s: %s at tick %d (%.3f s)\n", info.name, what, tick,
-                                    TimeOfTick(tick, info.tick_rate_hz).Seconds());
+                                    SecondsAt(tick, info.tick_rate_hz));
   return absl::OkStatus();
 }
 
@@ -89,7 +92,7 @@ absl::Status RunStep(const CliContext& context, const Arguments& arguments) {
   }
   context.out << absl::StreamFormat(
       "%s: stepped to tick %d (%.3f s), state hash %016x\n", chosen.info.name, answer.tick,
-      TimeOfTick(answer.tick, chosen.info.tick_rate_hz).Seconds(), answer.state_hash);
+      SecondsAt(answer.tick, chosen.info.tick_rate_hz), answer.state_hash);
   return absl::OkStatus();
 }
 

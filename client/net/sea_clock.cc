@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/base/check.h"
+#include "common/base/limits.h"
 
 namespace onesea::client {
 
@@ -18,8 +19,11 @@ void SeaClock::OnStamp(const wire::Stamp& stamp, int tick_rate_hz, std::int64_t 
 SimTime SeaClock::Exact(std::int64_t local_ns) const {
   ONESEA_CHECK(valid_);
   constexpr double kFlicksPerNs = static_cast<double>(kFlicksPerSecond) * 1e-9;
+  // A server whose two clocks disagree by years must not lead out of 64 bits.
+  constexpr double kReachFlicks = kQueryTimeMaxS * static_cast<double>(kFlicksPerSecond);
   const std::int64_t since_ns = local_ns + offset_ns_ - anchor_server_ns_;
-  return anchor_ + SimTime{std::llround(static_cast<double>(since_ns) * speed_ * kFlicksPerNs)};
+  const double since_flicks = static_cast<double>(since_ns) * speed_ * kFlicksPerNs;
+  return anchor_ + SimTime{std::llround(std::clamp(since_flicks, -kReachFlicks, kReachFlicks))};
 }
 
 SimTime SeaClock::Render(std::int64_t local_ns) {

@@ -23,12 +23,13 @@ class SeaClock {
   static constexpr double kRestartS = 1.0;
 
   /// A new stamp, or the same one with a better `offset_ns`: the server's clock minus ours.
-  /// Pre: IsTickRateExact(tick_rate_hz), stamp.speed is finite.
+  /// Pre: IsTickInRange(stamp.tick, tick_rate_hz), stamp.speed is finite, the stamp's time and
+  /// `offset_ns` are within 2^61 ns.
   void OnStamp(const wire::Stamp& stamp, int tick_rate_hz, std::int64_t offset_ns);
 
   bool valid() const { return valid_; }
   double speed() const { return speed_; }
-  /// Pre: valid().
+  /// Pre: valid(). Within a century of the stamp, whatever the clocks say.
   SimTime Exact(std::int64_t local_ns) const;
   SimTime Render(std::int64_t local_ns);
 

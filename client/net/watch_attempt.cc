@@ -35,6 +35,15 @@ absl::Status CheckMonotonic(const char* field, std::int64_t value_ns) {
       absl::StrCat(field, ": ", value_ns, " ns, not in [0, ", kMonotonicMaxNs, "]"));
 }
 
+absl::Status CheckStamp(const wire::Stamp& stamp, int tick_rate_hz) {
+  if (!IsTickInRange(stamp.tick, tick_rate_hz)) {
+    return absl::InvalidArgumentError(absl::StrCat("stamp.tick: ", stamp.tick,
+                                                   " is more than a century from tick 0 at ",
+                                                   tick_rate_hz, " Hz"));
+  }
+  return CheckMonotonic("stamp.server_monotonic_ns", stamp.server_monotonic_ns);
+}
+
 std::string_view Text(const grpc::Slice& slice) {
   return {reinterpret_cast<const char*>(slice.begin()), slice.size()};
 }
@@ -140,10 +149,12 @@ absl::Status WatchAttempt::Accept(const wire::Frame& frame) {
   }
   const bool gap = last_sequence_ >= 0 && frame.sequence != last_sequence_ + 1;
   last_sequence_ = frame.sequence;
-  if (frame.welcome.has_value()) tick_rate_hz_ = frame.welcome->recipe.tick_rate_hz;
+  if (frame.welcome.has_value()) {
+    tick_rate_hz_ = frame.welcome->recipe.tick_rate_hz;
+    stamp_.reset();  // its tick was of the rate before
+  }
   if (frame.stamp.has_value()) {
-    ONESEA_RETURN_IF_ERROR(
-        CheckMonotonic("stamp.server_monotonic_ns", frame.stamp->server_monotonic_ns));
+    ONESEA_RETURN_IF_ERROR(CheckStamp(*frame.stamp, tick_rate_hz_));
     stamp_ = frame.stamp;
   }
   if (frame.farewell.has_value()) farewell_ = *frame.farewell;

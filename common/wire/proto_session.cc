@@ -160,13 +160,17 @@ absl::StatusOr<SessionInfo> FromProto(const v1::SessionInfo& proto) {
   ONESEA_RETURN_IF_ERROR(CheckReal("session.", "speed", info.speed, 0.0, kSpeedMax));
   ONESEA_RETURN_IF_ERROR(
       CheckReal("session.", "actual_speed", info.actual_speed, 0.0, kActualSpeedMax));
-  info.tick = proto.tick();
-  ONESEA_RETURN_IF_ERROR(CheckInteger("session.", "tick", info.tick, -kTickMax, kTickMax));
   info.tick_rate_hz = proto.tick_rate_hz();
   if (!IsTickRateExact(info.tick_rate_hz) || info.tick_rate_hz > kTickRateMaxHz) {
     return absl::InvalidArgumentError(absl::StrCat("session.tick_rate_hz: ", info.tick_rate_hz,
                                                    " does not divide ", kFlicksPerSecond,
                                                    " or exceeds ", kTickRateMaxHz));
+  }
+  info.tick = proto.tick();
+  if (!IsTickInRange(info.tick, info.tick_rate_hz)) {
+    return absl::InvalidArgumentError(absl::StrCat("session.tick: ", info.tick,
+                                                   " is more than a century from tick 0 at ",
+                                                   info.tick_rate_hz, " Hz"));
   }
   info.stream_rate_hz = proto.stream_rate_hz();
   ONESEA_RETURN_IF_ERROR(

@@ -1,5 +1,5 @@
-// A server whose components hash differently, as one of another release would: nobody here may
-// draw its sea.
+// Servers that nobody here may follow: one whose components hash differently, as another release's
+// would, and one whose numbers are absurd.
 
 #include <gmock/gmock.h>
 #include <grpcpp/security/server_credentials.h>
@@ -10,9 +10,11 @@
 #include <array>
 #include <cstdio>
 #include <string>
+#include <utility>
 
 #include "absl/strings/str_format.h"
 #include "common/base/clock.h"
+#include "common/base/limits.h"
 #include "onesea/v1/onesea.grpc.pb.h"
 #include "tests/model/welcome_for_tests.h"
 
@@ -23,16 +25,27 @@ using ::testing::HasSubstr;
 
 constexpr std::uint64_t kForeignHash = 0x00c0ffee00c0ffeeULL;
 
+// What an honest server would say first.
+wire::Frame FirstFrame() {
+  wire::Frame frame;
+  frame.keyframe = true;
+  frame.sequence = 1;
+  frame.stamp.emplace();
+  frame.stamp->server_monotonic_ns = SystemClock().MonotonicNs();
+  frame.welcome = client::WelcomeFor(client::OneWaveRecipe());
+  return frame;
+}
+
+wire::Frame FrameOfAnotherRelease() {
+  wire::Frame frame = FirstFrame();
+  frame.welcome->component_hash = kForeignHash;
+  return frame;
+}
+
+// Says one frame to whoever watches.
 class ForeignServer final : public v1::OneSea::Service {
  public:
-  ForeignServer() {
-    frame_.keyframe = true;
-    frame_.sequence = 1;
-    frame_.stamp.emplace();
-    frame_.stamp->server_monotonic_ns = SystemClock().MonotonicNs();
-    frame_.welcome = client::WelcomeFor(client::OneWaveRecipe());
-    own_hash_ = frame_.welcome->component_hash;
-    frame_.welcome->component_hash = kForeignHash;
+  explicit ForeignServer(wire::Frame frame) : frame_(std::move(frame)) {
     grpc::ServerBuilder builder;
     builder.AddListeningPort("127.0.0.1:0", grpc::InsecureServerCredentials(), &port_);
     builder.RegisterService(this);
@@ -41,7 +54,6 @@ class ForeignServer final : public v1::OneSea::Service {
   ~ForeignServer() override { server_->Shutdown(std::chrono::system_clock::now()); }
 
   std::string address() const { return absl::StrFormat("127.0.0.1:%d", port_); }
-  std::uint64_t own_hash() const { return own_hash_; }
 
  private:
   grpc::Status ListSessions(grpc::ServerContext*, const v1::ListSessionsRequest*,
@@ -73,23 +85,32 @@ class ForeignServer final : public v1::OneSea::Service {
     return grpc::Status::OK;
   }
 
-  wire::Frame frame_;
-  std::uint64_t own_hash_ = 0;
+  const wire::Frame frame_;
   int port_ = 0;
   std::unique_ptr<grpc::Server> server_;
 };
 
 TEST(OtherSea, JoinRefusesNamingBothHashes) {
-  const ForeignServer server;
+  const ForeignServer server(FrameOfAnotherRelease());
   const absl::Status status = Join(server.address()).status();
   EXPECT_EQ(status.code(), absl::StatusCode::kFailedPrecondition) << status;
   EXPECT_THAT(std::string(status.message()), HasSubstr("00c0ffee00c0ffee"));
   EXPECT_THAT(std::string(status.message()),
-              HasSubstr(absl::StrFormat("%016x", server.own_hash())));
+              HasSubstr(absl::StrFormat("%016x", FirstFrame().welcome->component_hash)));
+}
+
+// The tick is one that a frame may carry at 1000 Hz; at 60 Hz it is no time that 64 bits hold.
+TEST(OtherSea, JoinRefusesATickThatIsNoTime) {
+  wire::Frame frame = FirstFrame();
+  frame.stamp->tick = kTickMax;
+  const ForeignServer server(std::move(frame));
+  const absl::Status status = Join(server.address()).status();
+  EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument) << status;
+  EXPECT_THAT(std::string(status.message()), HasSubstr("stamp.tick: 3200000000000"));
 }
 
 TEST(OtherSea, TheCommandSaysSoAndExitsWithFour) {
-  const ForeignServer server;
+  const ForeignServer server(FrameOfAnotherRelease());
   const std::string command =
       absl::StrFormat("%s watch --server %s 2>&1 >/dev/null", ONESEA_COMMAND, server.address());
   FILE* const pipe = popen(command.c_str(), "r");

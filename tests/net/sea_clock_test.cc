@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace onesea::client {
 namespace {
 
@@ -37,6 +39,19 @@ TEST(SeaClock, ALongSessionLosesNothing) {
   SeaClock clock;
   clock.OnStamp(StampAt(kCentury, 7 * kSecond), kRateHz, 0);
   EXPECT_EQ(clock.Exact(8 * kSecond), TimeOfTick(kCentury + 60, kRateHz));
+}
+
+// Tick of a century, clocks that disagree by 73 years, hundredfold speed: wrong, but within 64 bits.
+TEST(SeaClock, ClocksThatLieStayInsideSixtyFourBits) {
+  constexpr std::int64_t kYearsNs = std::int64_t{1} << 61;
+  constexpr Tick kCentury = Tick{60} * 3'155'760'000;
+  for (const std::int64_t offset_ns : {kYearsNs, -kYearsNs}) {
+    SeaClock clock;
+    clock.OnStamp(StampAt(kCentury, 0, 100.0), kRateHz, offset_ns);
+    const double away_s = (clock.Exact(kSecond) - TimeOfTick(kCentury, kRateHz)).Seconds();
+    EXPECT_NEAR(std::abs(away_s), 3.2e9, 1.0);
+    EXPECT_EQ(away_s > 0.0, offset_ns > 0);
+  }
 }
 
 TEST(SeaClock, RenderTimeWaitsInsteadOfGoingBack) {

@@ -76,6 +76,19 @@ TEST(HostileBytes, BitFlipsAreRefusedOrStayInRange) {
   EXPECT_GT(refused, 1000);
 }
 
+// Each tick is one that some rate allows; what counts is the century, not the number.
+TEST(HostileBytes, ATickBeyondACenturyOfItsRateIsRefused) {
+  Frame frame = FullFrame(ParametricSea());
+  frame.welcome->session.tick = std::int64_t{3'200'000'000} * 60;
+  EXPECT_TRUE(DecodeFrame(EncodeFrame(frame)).ok());
+  for (const std::int64_t past : {1, -1}) {
+    frame.welcome->session.tick = past * (std::int64_t{3'200'000'000} * 60 + 1);
+    const absl::Status status = DecodeFrame(EncodeFrame(frame)).status();
+    EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
+    EXPECT_NE(status.message().find("session.tick"), absl::string_view::npos) << status;
+  }
+}
+
 TEST(HostileBytes, RandomBytesAreRefusedOrHarmless) {
   std::uint64_t random = 2;
   for (int trial = 0; trial < 20'000; ++trial) {
