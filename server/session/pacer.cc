@@ -6,6 +6,13 @@
 
 namespace onesea::server {
 
+namespace {
+
+// A shorter span holds too few ticks to say anything: just after a change of speed none at all.
+constexpr std::int64_t kMeasureMinNs = 250'000'000;
+
+}  // namespace
+
 void Pacer::Anchor(Tick tick, std::int64_t now_ns) {
   anchor_tick_ = tick;
   anchor_ns_ = now_ns;
@@ -41,7 +48,7 @@ bool Pacer::ForgiveDebt(Tick next_tick, std::int64_t now_ns) {
 
 void Pacer::Measure(Tick tick, std::int64_t now_ns) {
   const std::int64_t span_ns = now_ns - measured_ns_;
-  if (span_ns <= 0) return;
+  if (span_ns < kMeasureMinNs) return;
   const double sea_s =
       static_cast<double>(tick - measured_tick_) / static_cast<double>(tick_rate_hz_);
   actual_speed_ = sea_s / (static_cast<double>(span_ns) * 1e-9);

@@ -31,7 +31,8 @@ class Pacer {
   /// Forgives debt above kDebtMaxNs for the next tick; true if it did.
   bool ForgiveDebt(Tick next_tick, std::int64_t now_ns);
 
-  /// Once a second: measures the speed reached since the last call.
+  /// Once a second: measures the speed reached since the last call, if that is a quarter of a
+  /// second or more ago.
   void Measure(Tick tick, std::int64_t now_ns);
   double speed() const { return speed_; }
   double actual_speed() const { return actual_speed_; }

@@ -56,5 +56,16 @@ TEST(Pacer, MeasuresTheSpeedReached) {
   EXPECT_TRUE(pacer.keeps_up());
 }
 
+// The second may be over just after a change: nothing was reached yet, which is not "speed 0".
+TEST(Pacer, ASpeedJustSetIsNotMeasuredYet) {
+  Pacer pacer(50, 1.0);
+  pacer.Anchor(0, 0);
+  pacer.SetSpeed(2.0, 49, 990'000'000);
+  pacer.Measure(49, 995'000'000);
+  EXPECT_DOUBLE_EQ(pacer.actual_speed(), 2.0);
+  pacer.Measure(49 + 101, 2 * kSecond);  // counted from the change
+  EXPECT_NEAR(pacer.actual_speed(), 2.0, 0.01);
+}
+
 }  // namespace
 }  // namespace onesea::server
