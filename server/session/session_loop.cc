@@ -115,7 +115,11 @@ absl::StatusOr<WeatherSpan> SessionLoop::ChangeWeather(const WeatherRequest& req
       // A slow build may overtake the default start: try again with more lead.
       start_tick = request.start_tick.value_or(DefaultStartTick());
       if (!request.start_tick) start_tick += (start_tick - runner_.session().tick() - 1) * attempt;
-      if (!IsTickInRange(start_tick, tick_rate_hz_) || start_tick <= runner_.session().tick()) {
+      if (!IsTickInRange(start_tick, tick_rate_hz_)) {
+        return absl::InvalidArgumentError(
+            absl::StrCat("start_tick: ", start_tick, " is more than a century from tick 0"));
+      }
+      if (start_tick <= runner_.session().tick()) {
         return absl::InvalidArgumentError(absl::StrCat("start_tick: ", start_tick,
                                                        " is not after the present tick ",
                                                        runner_.session().tick()));

@@ -93,6 +93,13 @@ TEST(SessionLoop, WeatherComesInTimeWhileItRuns) {
                 .status()
                 .code(),
             absl::StatusCode::kInvalidArgument);
+  const absl::Status never =
+      session
+          ->ChangeWeather(
+              {.sea = SmallSea(), .span_ticks = 0, .start_tick = Tick{1'000'000'000'000}})
+          .status();
+  EXPECT_EQ(never.code(), absl::StatusCode::kInvalidArgument);
+  EXPECT_NE(never.message().find("century"), absl::string_view::npos) << never;
   EXPECT_EQ(session->ChangeWeather({.sea = SmallSea(), .span_ticks = -1, .start_tick = {}})
                 .status()
                 .code(),
