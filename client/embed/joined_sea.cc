@@ -151,6 +151,10 @@ absl::Status JoinedSea::Sample(std::span<const Place> places, double time_s, Det
                                std::span<Water> out) const {
   ONESEA_RETURN_IF_ERROR(status());
   ONESEA_RETURN_IF_ERROR(CheckRequest(places, time_s, out.size()));
+  if (detail < Detail::kHeight || detail > Detail::kVelocity) {
+    return absl::InvalidArgumentError(absl::StrFormat(
+        "detail is %d, it must be kHeight (1), kNormal (2) or kVelocity (3)", detail));
+  }
   std::vector<sea::SurfaceSample> samples(places.size());
   follower_->sea()->Sample(Points(places), SimTime::FromSeconds(time_s),
                            static_cast<sea::QueryDetail>(detail), samples);

@@ -123,6 +123,8 @@ TEST(Embed, RefusesWhatItCannotAnswer) {
             absl::StatusCode::kInvalidArgument);
   EXPECT_EQ(sea->Sample({places.data(), 1}, 0.0, Detail::kHeight, water).code(),
             absl::StatusCode::kInvalidArgument);
+  EXPECT_EQ(sea->Sample({places.data(), 1}, 0.0, static_cast<Detail>(0), {water.data(), 1}).code(),
+            absl::StatusCode::kInvalidArgument);
   const std::vector<double> depth_m = {-1.0};
   std::vector<Underwater> under(1);
   EXPECT_EQ(sea->SampleAtDepth({places.data(), 1}, depth_m, 0.0, under).code(),
