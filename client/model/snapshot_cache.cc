@@ -1,7 +1,6 @@
 #include "client/model/snapshot_cache.h"
 
 #include <algorithm>
-#include <atomic>
 #include <utility>
 
 namespace onesea::client {
@@ -29,20 +28,13 @@ std::shared_ptr<const sea::SeaSnapshot> SnapshotCache::Find(SimTime time, sea::Q
   return nullptr;
 }
 
-// Moves the least recently used snapshot out, so that the builder, as its only owner, can write
-// into its storage; null while somebody still holds it.
+// Moves the least recently used snapshot out, so that the builder, if it is the only owner then,
+// can write into its storage.
 std::shared_ptr<const sea::SeaSnapshot> SnapshotCache::TakeOldest() {
-  std::shared_ptr<const sea::SeaSnapshot> taken;
-  {
-    absl::MutexLock lock(&mutex_);
-    Entry& oldest = *std::ranges::min_element(entries_, {}, &Entry::last_use);
-    oldest.last_use = 0;
-    taken = std::exchange(oldest.snapshot, nullptr);
-  }
-  if (taken.use_count() != 1) return nullptr;
-  // The last reader let go with a release; what it read happened before what the builder writes.
-  std::atomic_thread_fence(std::memory_order_acquire);
-  return taken;
+  absl::MutexLock lock(&mutex_);
+  Entry& oldest = *std::ranges::min_element(entries_, {}, &Entry::last_use);
+  oldest.last_use = 0;
+  return std::exchange(oldest.snapshot, nullptr);
 }
 
 void SnapshotCache::Insert(std::shared_ptr<const sea::SeaSnapshot> snapshot) {

@@ -65,6 +65,15 @@ constexpr double kInversionErrorM = 1e-3;
 // Second derivatives of the displacement beyond this many of their deviations are rare.
 constexpr double kCurvatureSigmas = 4.0;
 
+// Has everybody else let go of it? Then whatever they read was before whatever we write: the count
+// itself is read without order, but the copy goes through its increments and decrements, which
+// acquire what the last reader's released.
+bool IsOnlyOwner(const std::shared_ptr<const SeaSnapshot>& held) {
+  if (held.use_count() != 1) return false;
+  const std::shared_ptr<const SeaSnapshot> in_order = held;
+  return true;
+}
+
 // Of one weather entry.
 struct EntryVariances {
   double interpolation_m2 = 0.0;  // σ²
@@ -95,7 +104,6 @@ struct SeaSnapshot::Impl {
   SimTime time;
   QueryDetail detail = QueryDetail::kHeight;
   std::shared_ptr<const Components> components;
-  std::vector<CascadeFields> fields;
   std::vector<FloatArray> waves;       // QueryCascade::waves
   std::vector<FloatArray> velocities;  // QueryCascade::velocities
   QueryGrids grids;
@@ -129,10 +137,16 @@ void SeaSnapshot::Sample(std::span<const Vec2d> points, std::span<SurfaceSample>
 }
 
 struct SnapshotBuilder::Impl {
+  // Of one cascade; the planes live until they are turned into records.
+  struct Stage {
+    Synthesiser synthesiser;
+    CascadeFields planes;
+  };
+
   std::shared_ptr<const Components> components;
   TransformKind transform;
-  // One per detail and cascade, made when first asked for.
-  std::array<std::vector<Synthesiser>, 3> synthesisers;
+  // Without and with velocities, each per cascade, made when first asked for.
+  std::array<std::vector<Stage>, 2> stages;
   std::vector<double> weights;
   std::vector<EntryVariances> variances;  // per weather entry
   std::vector<RegularAt> regular;
@@ -155,30 +169,29 @@ SnapshotBuilder::~SnapshotBuilder() = default;
 std::shared_ptr<const SeaSnapshot> SnapshotBuilder::At(SimTime time, QueryDetail detail,
                                                        std::shared_ptr<const SeaSnapshot> recycle) {
   const Components& components = *impl_->components;
-  std::vector<Synthesiser>& synthesisers = impl_->synthesisers[static_cast<int>(detail) - 1];
+  const bool with_velocity = detail == QueryDetail::kVelocity;
+  std::vector<Impl::Stage>& stages = impl_->stages[with_velocity ? 1 : 0];
   const FieldSet wanted = FieldsFor(detail);
-  if (synthesisers.empty()) {
+  if (stages.empty()) {
     for (std::size_t c = 0; c < components.cascades.size(); ++c) {
       const int size = components.cascades[c].cascade.query_grid_size;
-      synthesisers.emplace_back(impl_->components, static_cast<int>(c), size, wanted,
-                                impl_->transform, PlaneKind::kSplineCoefficients);
+      stages.push_back({Synthesiser(impl_->components, static_cast<int>(c), size, wanted,
+                                    impl_->transform, PlaneKind::kSplineCoefficients),
+                        CascadeFields(size, wanted)});
     }
   }
   auto snapshot = std::make_unique<SeaSnapshot::Impl>();
-  if (recycle != nullptr && recycle.use_count() == 1 && recycle->detail() == detail &&
+  if (recycle != nullptr && IsOnlyOwner(recycle) && recycle->detail() == detail &&
       recycle->impl_->components == impl_->components) {
     // Nobody else can see it, so its storage is ours.
     auto& old = const_cast<SeaSnapshot::Impl&>(*recycle->impl_);
-    snapshot->fields = std::move(old.fields);
     snapshot->waves = std::move(old.waves);
     snapshot->velocities = std::move(old.velocities);
   } else {
     for (const CascadeComponents& cascade : components.cascades) {
       const int size = cascade.cascade.query_grid_size;
-      snapshot->fields.emplace_back(size, wanted);
       snapshot->waves.push_back(AllocateZeros<float>(RecordFloats(size)));
-      if (detail == QueryDetail::kVelocity)
-        snapshot->velocities.push_back(AllocateZeros<float>(RecordFloats(size)));
+      if (with_velocity) snapshot->velocities.push_back(AllocateZeros<float>(RecordFloats(size)));
     }
   }
   snapshot->time = time;
@@ -187,9 +200,9 @@ std::shared_ptr<const SeaSnapshot> SnapshotBuilder::At(SimTime time, QueryDetail
   snapshot->grids.detail = detail;
   snapshot->grids.current_m_per_s = components.recipe.current_m_per_s;
   for (std::size_t c = 0; c < components.cascades.size(); ++c) {
-    synthesisers[c].Evaluate(time, snapshot->fields[c]);
-    WriteRecords(snapshot->fields[c],
-                 {Field::kDisplacementX, Field::kDisplacementY, Field::kHeight},
+    CascadeFields& planes = stages[c].planes;
+    stages[c].synthesiser.Evaluate(time, planes);
+    WriteRecords(planes, {Field::kDisplacementX, Field::kDisplacementY, Field::kHeight},
                  snapshot->waves[c].get());
     const CascadeFrame frame(components.cascades[c].cascade);
     QueryCascade grid{.grid_size = components.cascades[c].cascade.query_grid_size,
@@ -197,8 +210,8 @@ std::shared_ptr<const SeaSnapshot> SnapshotBuilder::At(SimTime time, QueryDetail
                       .sine = frame.sine};
     grid.waves = snapshot->waves[c].get();
     grid.cells_per_m = grid.grid_size / frame.length_m;
-    if (detail == QueryDetail::kVelocity) {
-      WriteRecords(snapshot->fields[c], {Field::kVelocityX, Field::kVelocityY, Field::kVelocityZ},
+    if (with_velocity) {
+      WriteRecords(planes, {Field::kVelocityX, Field::kVelocityY, Field::kVelocityZ},
                    snapshot->velocities[c].get());
       grid.velocities = snapshot->velocities[c].get();
     }
