@@ -41,7 +41,7 @@ TEST(SeaClock, ALongSessionLosesNothing) {
   EXPECT_EQ(clock.Exact(8 * kSecond), TimeOfTick(kCentury + 60, kRateHz));
 }
 
-// Tick of a century, clocks that disagree by 73 years, hundredfold speed: wrong, but within 64 bits.
+// Tick of a century, clocks that disagree by 73 years, hundredfold speed: wrong, but in 64 bits.
 TEST(SeaClock, ClocksThatLieStayInsideSixtyFourBits) {
   constexpr std::int64_t kYearsNs = std::int64_t{1} << 61;
   constexpr Tick kCentury = Tick{60} * 3'155'760'000;
