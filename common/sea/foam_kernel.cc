@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "common/sea/foam_kernel.h"
+#include "common/sea/grid_cell-inl.h"
 #include "hwy/highway.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -26,31 +27,18 @@ struct alignas(64) FoamBlock {
   float xx[kBlock], yy[kBlock], xy[kBlock];
 };
 
-// Cell and weights of each foam cell's centre; in double, since windows may lie far out.
+// Cell and weights of each foam cell's centre.
 HWY_INLINE void Place(const FoamGrid& grid, const FoamRow& row, std::int64_t first_i,
                       FoamBlock& block) {
-  const hn::CappedTag<double, 8> d;
-  const hn::Rebind<float, decltype(d)> df;
-  const hn::Rebind<std::int32_t, decltype(d)> di;
+  const GridCells::DD d;
+  const GridCells cells(grid.cosine, grid.sine, grid.cells_per_m, grid.grid_size);
   const auto cell = hn::Set(d, row.cell_m);
   const auto y = hn::Set(d, row.origin_m.y + (static_cast<double>(row.j) + 0.5) * row.cell_m);
-  const auto cosine = hn::Set(d, grid.cosine), sine = hn::Set(d, grid.sine);
-  const auto scale = hn::Set(d, grid.cells_per_m);
-  const auto size = hn::Set(d, static_cast<double>(grid.grid_size));
-  const auto inverse_size = hn::Set(d, 1.0 / grid.grid_size);
-  const auto place = [&](auto along, float* weight, std::int32_t* index) HWY_ATTR {
-    const auto u = hn::Mul(scale, along);
-    const auto whole = hn::Floor(u);
-    const auto wrapped = hn::Sub(whole, hn::Mul(size, hn::Floor(hn::Mul(whole, inverse_size))));
-    hn::Store(hn::DemoteTo(df, hn::Sub(u, whole)), df, weight);
-    hn::Store(hn::DemoteTo(di, wrapped), di, index);
-  };
   for (std::size_t n = 0; n < kBlock; n += hn::Lanes(d)) {
     const auto i = hn::Add(hn::Iota(d, static_cast<double>(n) + 0.5),
                            hn::Set(d, static_cast<double>(first_i)));
     const auto x = hn::Add(hn::Set(d, row.origin_m.x), hn::Mul(i, cell));
-    place(hn::Add(hn::Mul(cosine, x), hn::Mul(sine, y)), block.wu + n, block.iu + n);
-    place(hn::Sub(hn::Mul(cosine, y), hn::Mul(sine, x)), block.wv + n, block.iv + n);
+    cells.Place(x, y, block.wu + n, block.iu + n, block.wv + n, block.iv + n);
   }
   const hn::RebindToSigned<D> d32;
   const auto pitch = hn::Set(d32, grid.grid_size + 1);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "common/base/check.h"
@@ -58,7 +59,9 @@ QueryRegular MakeRegular(const RegularAt& wave, const Recipe& recipe) {
 // Gaussian with at most the variance σ² = Σ E (e_a + e_b + e_a e_b)². The displacement errs
 // likewise by at most λσ along any direction, which moves the point and so changes the height by
 // the slope of the surface in space, taken as at most 1 (a steeper sea folds): together
-// σ √(1 + λ²). kBoundSigmas of that are exceeded by one point in 26 million; the inversion and
+// σ √(1 + λ²). kBoundSigmas of that are exceeded by one point in 26 million. Rounding to the units
+// of the records (query_records.h) moves each of height and displacement by at most half a unit a
+// cascade, since the weights of a spline are positive and add up to one; the inversion and other
 // rounding leave less than kInversionErrorM.
 constexpr double kBoundSigmas = 5.5;
 constexpr double kInversionErrorM = 1e-3;
@@ -104,8 +107,7 @@ struct SeaSnapshot::Impl {
   SimTime time;
   QueryDetail detail = QueryDetail::kHeight;
   std::shared_ptr<const Components> components;
-  std::vector<FloatArray> waves;       // QueryCascade::waves
-  std::vector<FloatArray> velocities;  // QueryCascade::velocities
+  std::vector<AlignedArray<std::uint32_t>> waves, velocities;  // records of grids.cascades
   QueryGrids grids;
   double height_error_bound_m = 0.0;
 };
@@ -190,8 +192,10 @@ std::shared_ptr<const SeaSnapshot> SnapshotBuilder::At(SimTime time, QueryDetail
   } else {
     for (const CascadeComponents& cascade : components.cascades) {
       const int size = cascade.cascade.query_grid_size;
-      snapshot->waves.push_back(AllocateZeros<float>(RecordFloats(size)));
-      if (with_velocity) snapshot->velocities.push_back(AllocateZeros<float>(RecordFloats(size)));
+      snapshot->waves.push_back(AllocateZeros<std::uint32_t>(RecordWords(size)));
+      if (with_velocity) {
+        snapshot->velocities.push_back(AllocateZeros<std::uint32_t>(RecordWords(size)));
+      }
     }
   }
   snapshot->time = time;
@@ -202,18 +206,20 @@ std::shared_ptr<const SeaSnapshot> SnapshotBuilder::At(SimTime time, QueryDetail
   for (std::size_t c = 0; c < components.cascades.size(); ++c) {
     CascadeFields& planes = stages[c].planes;
     stages[c].synthesiser.Evaluate(time, planes);
-    WriteRecords(planes, {Field::kDisplacementX, Field::kDisplacementY, Field::kHeight},
-                 snapshot->waves[c].get());
     const CascadeFrame frame(components.cascades[c].cascade);
     QueryCascade grid{.grid_size = components.cascades[c].cascade.query_grid_size,
                       .cosine = frame.cosine,
                       .sine = frame.sine};
-    grid.waves = snapshot->waves[c].get();
     grid.cells_per_m = grid.grid_size / frame.length_m;
+    grid.cosine_cells_per_m = static_cast<float>(grid.cosine * grid.cells_per_m);
+    grid.sine_cells_per_m = static_cast<float>(grid.sine * grid.cells_per_m);
+    grid.waves =
+        WriteRecords(planes, {Field::kDisplacementX, Field::kDisplacementY, Field::kHeight},
+                     snapshot->waves[c].get());
     if (with_velocity) {
-      WriteRecords(planes, {Field::kVelocityX, Field::kVelocityY, Field::kVelocityZ},
-                   snapshot->velocities[c].get());
-      grid.velocities = snapshot->velocities[c].get();
+      grid.velocities =
+          WriteRecords(planes, {Field::kVelocityX, Field::kVelocityY, Field::kVelocityZ},
+                       snapshot->velocities[c].get());
     }
     snapshot->grids.cascades.push_back(grid);
   }
@@ -226,6 +232,9 @@ std::shared_ptr<const SeaSnapshot> SnapshotBuilder::At(SimTime time, QueryDetail
   const double lambda = components.recipe.choppiness;
   snapshot->height_error_bound_m =
       kBoundSigmas * std::sqrt(now.interpolation_m2 * (1.0 + lambda * lambda)) + kInversionErrorM;
+  for (const QueryCascade& cascade : snapshot->grids.cascades) {
+    snapshot->height_error_bound_m += (0.5 + std::numbers::sqrt2 / 2.0) * cascade.waves.unit;
+  }
   double curvature_per_m = kCurvatureSigmas * std::sqrt(now.curvature_per_m2);
   RegularWavesAt(components, time, impl_->weights, impl_->regular);
   for (const RegularAt& wave : impl_->regular) {

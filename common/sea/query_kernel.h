@@ -7,6 +7,7 @@
 #include "common/base/limits.h"
 #include "common/base/vec.h"
 #include "common/sea/point_query.h"
+#include "common/sea/query_records.h"
 #include "common/sea/surface.h"
 #include "common/sea/wave_frame.h"
 
@@ -19,10 +20,9 @@ struct QueryCascade {
   int grid_size = 0;
   double cosine = 1.0, sine = 0.0;
   double cells_per_m = 1.0;
-  /// Spline coefficients of displacement x, y, height and nothing; layout in spline.h.
-  const float* waves = nullptr;
-  /// Of velocity x, y, z and nothing; null where the snapshot has none.
-  const float* velocities = nullptr;
+  float cosine_cells_per_m = 1.0f, sine_cells_per_m = 0.0f;  ///< products of the above
+  QueryRecords waves = {};                                   ///< displacement x, y and height
+  QueryRecords velocities = {};  ///< x, y, z; none where the snapshot has none
 };
 
 /// A regular wave at the snapshot's time.
@@ -50,9 +50,6 @@ struct QueryPoint {
   double height_x = 0, height_y = 0;              ///< gradient of the height
   double j_xx = 1, j_xy = 0, j_yx = 0, j_yy = 1;  ///< I + gradient of the displacement
 };
-
-/// Three planes of one cascade as records of QueryCascade. Allocates nothing.
-void WriteRecords(const CascadeFields& fields, const Field (&planes)[3], float* records);
 
 /// One point in double: for the few points that the vectorised path hands over. The same spline.
 QueryPoint EvaluateQueryPoint(const QueryGrids& grids, Vec2d undisplaced);

@@ -39,27 +39,29 @@ void AddCascade(const QueryCascade& cascade, Vec2d p, QueryPoint& sum) {
   const auto iu = static_cast<std::size_t>(whole_u - size * std::floor(whole_u / size));
   const auto iv = static_cast<std::size_t>(whole_v - size * std::floor(whole_v / size));
   const SplineWeights at_u(u - whole_u), at_v(v - whole_v);
-  const std::size_t pitch = RecordPitchFloats(cascade.grid_size);
-  double value[4] = {}, along_u[4] = {}, along_v[4] = {};
-  for (std::size_t b = 0; b < 4; ++b) {
-    const float* row = cascade.waves + (iv + b) * pitch + 4 * iu;
-    double row_value[4] = {}, row_along[4] = {};
+  const std::size_t pitch = RecordPitchWords(cascade.grid_size);
+  double value[3] = {}, along_u[3] = {}, along_v[3] = {};
+  for (int b = 0; b < 4; ++b) {
+    const std::uint32_t* row = cascade.waves.words + (iv + (b & 2)) * pitch + 4 * iu;
+    double row_value[3] = {}, row_along[3] = {};
     for (std::size_t a = 0; a < 4; ++a) {
-      for (std::size_t f = 0; f < 4; ++f) {
-        row_value[f] += at_u.value[a] * row[4 * a + f];
-        row_along[f] += at_u.slope[a] * row[4 * a + f];
+      for (std::size_t f = 0; f < 3; ++f) {
+        const double coefficient = RecordHalf(row[4 * a + f], b & 1);
+        row_value[f] += at_u.value[a] * coefficient;
+        row_along[f] += at_u.slope[a] * coefficient;
       }
     }
-    for (std::size_t f = 0; f < 4; ++f) {
+    for (std::size_t f = 0; f < 3; ++f) {
       value[f] += at_v.value[b] * row_value[f];
       along_u[f] += at_v.value[b] * row_along[f];
       along_v[f] += at_v.slope[b] * row_value[f];
     }
   }
-  const double c = cascade.cosine * cascade.cells_per_m, s = cascade.sine * cascade.cells_per_m;
-  sum.dx_m += value[0];
-  sum.dy_m += value[1];
-  sum.height_m += value[2];
+  const double unit = cascade.waves.unit, cells = unit * cascade.cells_per_m;
+  const double c = cascade.cosine * cells, s = cascade.sine * cells;
+  sum.dx_m += unit * value[0];
+  sum.dy_m += unit * value[1];
+  sum.height_m += unit * value[2];
   sum.j_xx += c * along_u[0] - s * along_v[0];
   sum.j_xy += s * along_u[0] + c * along_v[0];
   sum.j_yx += c * along_u[1] - s * along_v[1];

@@ -1,7 +1,7 @@
 // Reading the cubic B-spline of spline.h with vectors. Included once per SIMD target.
 //
-// Vectors are as wide as the target's; a row of four records is kChunks of them. Additions across
-// lanes have one order whatever the width, so the bits are the same.
+// Vectors are as wide as the target's; a row of four records (query_records.h) is kChunks of them.
+// Additions across lanes have one order whatever the width, so the bits are the same.
 
 #if defined(ONESEA_SEA_SPLINE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ONESEA_SEA_SPLINE_INL_H_
@@ -26,6 +26,7 @@ using DI = hn::RebindToSigned<D>;
 using DU = hn::RebindToUnsigned<D>;
 using V = hn::Vec<D>;
 using VI = hn::Vec<DI>;
+using VU = hn::Vec<DU>;
 
 constexpr int kLanes = static_cast<int>(hn::MaxLanes(D()));
 // A row of four records, in vectors.
@@ -36,20 +37,7 @@ constexpr int kChunks = 16 / kLanes;
 struct Record {
   float at[4] = {};
 };
-HWY_INLINE Record Zero() { return {}; }
-HWY_INLINE Record Add(Record a, Record b) {
-  for (int f = 0; f < 4; ++f) a.at[f] += b.at[f];
-  return a;
-}
-HWY_INLINE Record Scale(float factor, Record a) {
-  for (float& f : a.at) f *= factor;
-  return a;
-}
 HWY_INLINE void Put(Record a, float* to) { std::memcpy(to, a.at, sizeof a.at); }
-HWY_INLINE void CopyFirstTwo(const float* a, const float* b, float* to) {
-  std::memcpy(to, a, 2 * sizeof(float));
-  std::memcpy(to + 2, b, 2 * sizeof(float));
-}
 HWY_INLINE Record SumRecords(const V* row) {
   Record sum;
   float at[16];
@@ -60,13 +48,7 @@ HWY_INLINE Record SumRecords(const V* row) {
 #else
 using D4 = hn::FixedTag<float, 4>;
 using Record = hn::Vec<D4>;
-HWY_INLINE Record Zero() { return hn::Zero(D4()); }
-HWY_INLINE Record Add(Record a, Record b) { return hn::Add(a, b); }
-HWY_INLINE Record Scale(float factor, Record a) { return hn::Mul(hn::Set(D4(), factor), a); }
 HWY_INLINE void Put(Record a, float* to) { hn::Store(a, D4(), to); }
-HWY_INLINE void CopyFirstTwo(const float* a, const float* b, float* to) {
-  hn::Store(hn::ConcatLowerLower(D4(), hn::Load(D4(), b), hn::Load(D4(), a)), D4(), to);
-}
 // (0 + 2) + (1 + 3) of the four records of a row.
 HWY_INLINE Record SumHalves(Record a) { return a; }
 template <class Wide>
@@ -86,24 +68,60 @@ HWY_INLINE Record SumRecords(const Chunk* row) {
 }
 #endif
 
-// The four weights and their derivatives at each of `count` points, from its place `t` in its cell.
-HWY_INLINE void WeighSpline(const float* t, std::size_t count, float* weights, float* slopes) {
+// Of the four coefficients around a point along one axis: their weights, and the derivatives of
+// these.
+struct Weights {
+  HWY_INLINE Weights() {}  // an implicit one would not get the target's attributes
+  V w0, w1, w2, w3;
+  V s0, s1, s2, s3;
+};
+
+// `a` is the place in the cell.
+HWY_INLINE Weights WeighSpline(V a) {
   const D d;
   const V one = hn::Set(d, 1.0f), three = hn::Set(d, 3.0f), four = hn::Set(d, 4.0f);
   const V half = hn::Set(d, 0.5f), sixth = hn::Set(d, 1.0f / 6.0f);
-  for (std::size_t n = 0; n < count; n += hn::Lanes(d)) {
-    const V a = hn::Load(d, t + n), b = hn::Sub(one, a);
-    const V a2 = hn::Mul(a, a), b2 = hn::Mul(b, b);
-    const V a3 = hn::Mul(a2, a), b3 = hn::Mul(b2, b);
-    // Of one point the middle two mirror each other: 4 - 6 t² + 3 t³ at t = a and t = b.
-    const V w1 = hn::Add(four, hn::Mul(three, hn::Sub(a3, hn::Add(a2, a2))));
-    const V w2 = hn::Add(four, hn::Mul(three, hn::Sub(b3, hn::Add(b2, b2))));
-    hn::StoreInterleaved4(hn::Mul(sixth, b3), hn::Mul(sixth, w1), hn::Mul(sixth, w2),
-                          hn::Mul(sixth, a3), d, weights + 4 * n);
-    const V s1 = hn::Mul(half, hn::Sub(hn::Mul(three, a2), hn::Mul(four, a)));
-    const V s2 = hn::Mul(half, hn::Sub(hn::Mul(four, b), hn::Mul(three, b2)));
-    hn::StoreInterleaved4(hn::Neg(hn::Mul(half, b2)), s1, s2, hn::Mul(half, a2), d, slopes + 4 * n);
-  }
+  const V b = hn::Sub(one, a), a2 = hn::Mul(a, a), b2 = hn::Mul(b, b);
+  const V a3 = hn::Mul(a2, a), b3 = hn::Mul(b2, b);
+  Weights to;
+  // The middle two mirror each other: 4 - 6 t² + 3 t³ at t = a and t = b.
+  to.w0 = hn::Mul(sixth, b3);
+  to.w1 = hn::Mul(sixth, hn::Add(four, hn::Mul(three, hn::Sub(a3, hn::Add(a2, a2)))));
+  to.w2 = hn::Mul(sixth, hn::Add(four, hn::Mul(three, hn::Sub(b3, hn::Add(b2, b2)))));
+  to.w3 = hn::Mul(sixth, a3);
+  to.s0 = hn::Neg(hn::Mul(half, b2));
+  to.s1 = hn::Mul(half, hn::Sub(hn::Mul(three, a2), hn::Mul(four, a)));
+  to.s2 = hn::Mul(half, hn::Sub(hn::Mul(four, b), hn::Mul(three, b2)));
+  to.s3 = hn::Mul(half, a2);
+  return to;
+}
+
+// Multipliers of pairs of rows are whole numbers of 1/2^15.
+constexpr float kPairOne = 32768.0f;
+
+HWY_INLINE VI RoundWeight(V w) {
+  const D d;
+  return hn::ConvertTo(DI(),
+                       hn::Floor(hn::Add(hn::Mul(w, hn::Set(d, kPairOne)), hn::Set(d, 0.5f))));
+}
+HWY_INLINE VU JoinPair(VI low, VI high) {
+  const VU half = hn::And(hn::BitCast(DU(), low), hn::Set(DU(), 0xffffu));
+  return hn::Or(half, hn::ShiftLeft<16>(hn::BitCast(DU(), high)));
+}
+
+// Low half times low half plus high half times high half of each word, exactly, plus `sum`.
+HWY_INLINE VI MulAddPairs(VI words, VI weights, VI sum) {
+#if HWY_ARCH_X86 && HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
+  const hn::Repartition<std::int16_t, DI> d16;
+  VI none = sum;  // x86 adds the pairs in place and has no use for it
+  return hn::ReorderWidenMulAccumulate(DI(), hn::BitCast(d16, words), hn::BitCast(d16, weights),
+                                       sum, none);
+#else
+  const auto low = [](VI word) HWY_ATTR { return hn::ShiftRight<16>(hn::ShiftLeft<16>(word)); };
+  const auto high = [](VI word) HWY_ATTR { return hn::ShiftRight<16>(word); };
+  return hn::Add(sum,
+                 hn::Add(hn::Mul(low(words), low(weights)), hn::Mul(high(words), high(weights))));
+#endif
 }
 
 // Weight t for every float of record t, of the records in chunk `chunk` of a row.
@@ -118,13 +136,6 @@ HWY_INLINE V ExpandWeights(const float* weights, int chunk) {
     return hn::TableLookupLanes(hn::LoadDup128(d, weights),
                                 hn::SetTableIndices(d, kRecord + chunk * kWidth));
   }
-}
-
-// One row vector of the four rows at `from`, weighted.
-HWY_INLINE V CombineRows(const V (&rows)[4], const float* w) {
-  const D d;
-  return hn::Add(hn::Add(hn::Mul(hn::Set(d, w[0]), rows[0]), hn::Mul(hn::Set(d, w[1]), rows[1])),
-                 hn::Add(hn::Mul(hn::Set(d, w[2]), rows[2]), hn::Mul(hn::Set(d, w[3]), rows[3])));
 }
 
 }  // namespace HWY_NAMESPACE

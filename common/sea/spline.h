@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstddef>
-
 #include "common/base/real_math.h"
 #include "common/sea/constants.h"
 
@@ -38,15 +36,5 @@ struct SplineWeights {
   double value[4];
   double slope[4];
 };
-
-/// Layout of records: (N + 3) rows of (N + 4) records of four floats. Row and column are those of
-/// the plane plus one, and the ones beyond it repeat it, so that the coefficients around cell
-/// (u, v) start at record (u, v) and a row of them is 64 contiguous bytes.
-inline std::size_t RecordPitchFloats(int grid_size) {
-  return 4 * (static_cast<std::size_t>(grid_size) + 4);
-}
-inline std::size_t RecordFloats(int grid_size) {
-  return (static_cast<std::size_t>(grid_size) + 3) * RecordPitchFloats(grid_size);
-}
 
 }  // namespace onesea::sea
