@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "common/sea/spline.h"
+#include "common/sea/query_records.h"
 
 namespace onesea::server {
 namespace {
@@ -18,7 +18,7 @@ constexpr std::size_t kIdleBuildersMax = 2;
 std::size_t EntriesFor(const sea::Components& components) {
   std::size_t bytes = 1;
   for (const sea::CascadeComponents& cascade : components.cascades) {
-    bytes += 2 * sizeof(float) * sea::RecordFloats(cascade.cascade.query_grid_size);
+    bytes += 2 * sizeof(std::uint32_t) * sea::RecordWords(cascade.cascade.query_grid_size);
   }
   return std::clamp(kBytesMax / bytes, kEntriesMin, kEntriesMax);
 }
