@@ -148,4 +148,17 @@ absl::StatusOr<QueryAnswer> QueryEngine::Answer(
   return answer;
 }
 
+std::optional<Tick> QueryEngine::NoteAsked(Tick now) {
+  Tick last = last_asked_.load(std::memory_order_relaxed);
+  const Tick stride = now - last;
+  if (stride <= 0 || !last_asked_.compare_exchange_strong(last, now)) return std::nullopt;
+  if (stride > kStrideMax) return std::nullopt;
+  return now + stride;
+}
+
+void QueryEngine::Prepare(const std::shared_ptr<const sea::Components>& components, Tick tick,
+                          sea::QueryDetail detail) {
+  snapshots_.Get(components, TimeOfTick(tick, components->recipe.tick_rate_hz), detail);
+}
+
 }  // namespace onesea::server

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <atomic>
 #include <memory>
+#include <optional>
 
 #include "absl/status/statusor.h"
 #include "common/wire/query.h"
@@ -22,10 +24,22 @@ class QueryEngine {
   absl::StatusOr<wire::QueryAnswer> Answer(const std::shared_ptr<const sea::Components>& components,
                                            Tick now, const wire::QueryRequest& request);
 
+  /// Thread-safe. Notes that the present tick `now` was asked for; guesses when it will be next:
+  /// as many ticks later as this was after the last time. Nothing if the tick was noted already or
+  /// those who ask are slower than kStrideMax. Whoever Prepare()s that tick spares the next of them
+  /// the synthesis.
+  std::optional<Tick> NoteAsked(Tick now);
+  static constexpr Tick kStrideMax = 8;
+
+  /// Thread-safe. Makes the snapshot that a request at this tick will need.
+  void Prepare(const std::shared_ptr<const sea::Components>& components, Tick tick,
+               sea::QueryDetail detail);
+
   std::int64_t snapshots_built() const { return snapshots_.built_count(); }
 
  private:
   SnapshotCache snapshots_;
+  std::atomic<Tick> last_asked_{-kStrideMax - 1};  // the first tick is 0
 };
 
 }  // namespace onesea::server

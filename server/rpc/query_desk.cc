@@ -3,6 +3,13 @@
 #include "common/base/check.h"
 
 namespace onesea::server {
+namespace {
+
+// A synthesis right away would keep a core from those who bring the answer home; the next tick
+// leaves time enough.
+constexpr std::int64_t kAnswerFirstNs = 1'000'000;
+
+}  // namespace
 
 absl::StatusOr<wire::QueryAnswer> QueryDesk::Answer(const wire::QueryRequest& request) {
   ONESEA_ASSIGN_OR_RETURN(const std::shared_ptr<SessionLoop> session,
@@ -13,7 +20,26 @@ absl::StatusOr<wire::QueryAnswer> QueryDesk::Answer(const wire::QueryRequest& re
 absl::StatusOr<wire::QueryAnswer> QueryDesk::Answer(const std::shared_ptr<SessionLoop>& session,
                                                     const wire::QueryRequest& request) {
   const SessionView view = session->View();
-  return EngineOf(session)->Answer(view.components, view.tick, request);
+  const std::shared_ptr<QueryEngine> engine = EngineOf(session);
+  absl::StatusOr<wire::QueryAnswer> answer = engine->Answer(view.components, view.tick, request);
+  const bool asked_for_now = !request.tick && !request.time_s;
+  if (answer.ok() && asked_for_now) PrepareNext(session, engine, view.tick, request.detail);
+  return answer;
+}
+
+void QueryDesk::PrepareNext(const std::shared_ptr<SessionLoop>& session,
+                            const std::shared_ptr<QueryEngine>& engine, Tick now,
+                            sea::QueryDetail detail) {
+  const std::optional<Tick> next = engine->NoteAsked(now);
+  if (!next) return;
+  const std::int64_t begin_ns = clock_.MonotonicNs() + kAnswerFirstNs;
+  ahead_
+      .Post([this, session, engine, next = *next, detail, begin_ns] {
+        clock_.SleepUntil(begin_ns);
+        const SessionView view = session->View();
+        if (view.tick < next) engine->Prepare(view.components, next, detail);
+      })
+      .IgnoreError();  // too busy: the asker makes it
 }
 
 bool QueryDesk::IsHeavy(const wire::QueryRequest& request) {

@@ -16,7 +16,7 @@ namespace onesea::server {
 class OneSeaService final : public OneSeaMethods {
  public:
   OneSeaService(Registry& registry, const Clock& clock, sea::TransformKind transform)
-      : registry_(registry), clock_(clock), desk_(registry, transform) {}
+      : registry_(registry), clock_(clock), desk_(registry, clock, transform) {}
 
   grpc::ServerUnaryReactor* ListSessions(grpc::CallbackServerContext* context,
                                          const v1::ListSessionsRequest* request,

@@ -8,26 +8,24 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cstdio>
 #include <cstdlib>
-#include <random>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "absl/flags/flag.h"
 #include "absl/flags/parse.h"
 #include "absl/flags/usage.h"
 #include "absl/strings/str_cat.h"
-#include "client/net/remote_server.h"
 #include "common/base/check.h"
 #include "common/base/clock.h"
 #include "server/rpc/rpc_server.h"
 #include "server/session/registry.h"
+#include "tests/bench/asker.h"
 #include "tests/bench/child.h"
 #include "tests/bench/crowd.h"
 #include "tests/bench/light_viewer.h"
+#include "tests/bench/ping_pong.h"
 #include "tests/bench/plain_fanout.h"
 
 ABSL_FLAG(int, viewers, 500, "Viewers, [1, 4000]");
@@ -40,7 +38,6 @@ namespace onesea::bench {
 namespace {
 
 constexpr int kStreamRateHz = 30;
-constexpr int kQueryPoints = 100;
 
 struct Options {
   int viewers;
@@ -96,60 +93,23 @@ void Print(const char* name, const CrowdResult& result, double cpu_s, int viewer
       result.lost);
 }
 
-// Blocking queries on one stream until `stop`; microseconds each.
-std::vector<double> Query(int port, const std::atomic<bool>& stop) {
-  client::RemoteServer remote(client::ConnectTo(absl::StrCat("127.0.0.1:", port)));
-  const std::unique_ptr<client::QueryStream> stream = remote.StreamQueries();
-  wire::QueryRequest request;
-  request.session = "bench";
-  std::mt19937_64 random(5);
-  std::uniform_real_distribution<double> place(-1000.0, 1000.0);
-  for (int n = 0; n < kQueryPoints; ++n) request.points_m.push_back({place(random), place(random)});
-  std::vector<double> latencies_us;
-  while (!stop) {
-    ++request.id;
-    const std::int64_t before_ns = SystemClock().MonotonicNs();
-    if (!stream->Send(request).ok()) break;
-    const absl::StatusOr<wire::QueryAnswer> answer = stream->Receive();
-    if (!answer.ok() || !answer->status.ok()) break;
-    latencies_us.push_back(static_cast<double>(SystemClock().MonotonicNs() - before_ns) * 1e-3);
-    // As a simulator asks: a few hundred times a second, not as fast as it can.
-    SystemClock().SleepUntil(before_ns + 4'000'000);
-  }
-  return latencies_us;
-}
-
-void PrintQueries(const char* when, std::vector<double> latencies_us) {
-  const std::size_t count = latencies_us.size();
-  const Spread spread = SpreadOf(std::move(latencies_us));
-  std::printf("query  %d points, %s: p50 %.0f p99 %.0f p99.9 %.0f us over %zu answers\n",
-              kQueryPoints, when, spread.p50, spread.p99, spread.p999, count);
-}
-
-// Runs `watch` for the span with queries beside it.
+// Watches for the span with queries beside it.
 template <typename Viewer>
-CrowdResult WatchAndQuery(std::vector<Viewer>& viewers, std::int64_t span_ns, int port, bool query,
-                          const char* when) {
-  std::atomic<bool> stop{false};
-  std::vector<double> latencies_us;
-  std::thread asker;
-  if (query) asker = std::thread([&] { latencies_us = Query(port, stop); });
+CrowdResult WatchAndAsk(std::vector<Viewer>& viewers, std::int64_t span_ns, Child& server,
+                        Child& ping_pong, const std::string& when) {
+  Asker asker(server.port(), ping_pong.port(), "bench");
   const CrowdResult result = Watch(viewers, span_ns);
-  stop = true;
-  if (query) {
-    asker.join();
-    PrintQueries(when, std::move(latencies_us));
-  }
+  PrintAsked(when.c_str(), asker.Stop());
   return result;
 }
 
 // Microseconds of server CPU per frame.
-double RunSea(Child& server, const Options& options, std::int64_t* frame_bytes) {
+double RunSea(Child& server, Child& ping_pong, const Options& options, std::int64_t* frame_bytes) {
   const int port = server.port();
   ONESEA_CHECK(port > 0) << "no free port";
   const auto span_ns = static_cast<std::int64_t>(options.seconds) * 1'000'000'000;
   std::vector<LightViewer> viewers;
-  if (options.query) WatchAndQuery(viewers, 2'000'000'000, port, true, "nobody watches");
+  if (options.query) WatchAndAsk(viewers, span_ns, server, ping_pong, "nobody watches");
   viewers.reserve(options.viewers);
   for (int n = 0; n < options.viewers; ++n) {
     viewers.emplace_back();
@@ -164,8 +124,8 @@ double RunSea(Child& server, const Options& options, std::int64_t* frame_bytes) 
     if (!viewer.trouble().empty()) std::printf("  trouble: %s\n", viewer.trouble().c_str());
   }
   if (options.query) {
-    WatchAndQuery(viewers, span_ns, port, true,
-                  absl::StrCat("while streaming to ", options.viewers).c_str());
+    WatchAndAsk(viewers, span_ns, server, ping_pong,
+                absl::StrCat("while streaming to ", options.viewers));
   }
   const auto frames = static_cast<double>(std::max<std::int64_t>(1, alone.frames));
   *frame_bytes = static_cast<std::int64_t>(static_cast<double>(alone.bytes) / frames);
@@ -195,15 +155,16 @@ void Run(const Options& options) {
   getrlimit(RLIMIT_NOFILE, &files);
   files.rlim_cur = files.rlim_max;
   setrlimit(RLIMIT_NOFILE, &files);
-  // Both are forked before the first thread; the idle one costs nothing.
+  // All are forked before the first thread; the idle ones cost nothing.
   constexpr int kPlainFrameBytes = 64;  // about what a stamp takes on the wire, both ways
   Child plain([&](int port_pipe, int stop_pipe) {
     ServePlainFanout(kPlainFrameBytes, options.every_frame ? kStreamRateHz : 1, port_pipe,
                      stop_pipe);
   });
   Child sea([&](int port_pipe, int stop_pipe) { ServeSea(options.shards, port_pipe, stop_pipe); });
+  Child ping_pong(ServePingPong);
   std::int64_t frame_bytes = 0;
-  const double sea_us = RunSea(sea, options, &frame_bytes);
+  const double sea_us = RunSea(sea, ping_pong, options, &frame_bytes);
   const double plain_us = RunPlain(plain, options, kPlainFrameBytes);
   std::printf(
       "ratio  onesea / plain sockets: %.2f in server CPU per frame (%ld and %d bytes a frame)\n",

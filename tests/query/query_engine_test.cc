@@ -135,6 +135,27 @@ TEST_F(QueryEngineTest, OneInstantIsSynthesisedOnce) {
   EXPECT_EQ(engine.snapshots_built(), 2);
 }
 
+TEST_F(QueryEngineTest, APreparedTickIsAnsweredWithoutASynthesis) {
+  const QueryAnswer unprepared = *engine.Answer(components, 601, At({{5.0, 6.0}}));
+  QueryEngine other;
+  other.Prepare(components, 601, sea::QueryDetail::kHeight);
+  EXPECT_EQ(other.snapshots_built(), 1);
+  EXPECT_EQ(other.Answer(components, 601, At({{5.0, 6.0}}))->height_m, unprepared.height_m);
+  EXPECT_EQ(other.snapshots_built(), 1);
+}
+
+TEST_F(QueryEngineTest, GuessesTheNextTickFromTheLastStride) {
+  EXPECT_EQ(engine.NoteAsked(100), std::nullopt);  // nothing is known of the asker
+  EXPECT_EQ(engine.NoteAsked(100), std::nullopt);
+  EXPECT_EQ(engine.NoteAsked(101), 102);
+  EXPECT_EQ(engine.NoteAsked(101), std::nullopt);  // said already
+  EXPECT_EQ(engine.NoteAsked(100), std::nullopt);  // a late one
+  EXPECT_EQ(engine.NoteAsked(104), 107);
+  EXPECT_EQ(engine.NoteAsked(104 + QueryEngine::kStrideMax), 104 + 2 * QueryEngine::kStrideMax);
+  EXPECT_EQ(engine.NoteAsked(1000), std::nullopt);  // too slow to be waited for
+  EXPECT_EQ(engine.NoteAsked(1001), 1002);
+}
+
 TEST_F(QueryEngineTest, KeepsAFewInstants) {
   for (int round = 0; round < 3; ++round) {
     for (Tick tick = 0; tick < 4; ++tick) {
