@@ -19,13 +19,8 @@ SpreadingModel FallbackModel(const BuoySpectrum& spectrum, const DirectionTable&
       std::max_element(table.density_m2_per_hz.begin(), table.density_m2_per_hz.end());
   const double peak_hz =
       table.frequency_hz[static_cast<std::size_t>(highest - table.density_m2_per_hz.begin())];
-  double variance = 0.0;
-  for (std::size_t n = 1; n < table.frequency_hz.size(); ++n) {
-    variance += 0.5 * (table.density_m2_per_hz[n] + table.density_m2_per_hz[n - 1]) *
-                (table.frequency_hz[n] - table.frequency_hz[n - 1]);
-  }
   JonswapSystem alike;
-  alike.hs_m = 4.0 * std::sqrt(variance);
+  alike.hs_m = 4.0 * std::sqrt(VarianceOf(table));
   alike.tp_s = 1.0 / peak_hz;
   const double age = InverseWaveAgeOfAlpha(JonswapShapeOf(alike, 0.0).alpha);
   return {spectrum.fallback_spreading, 2.0 * kPi * peak_hz, age};

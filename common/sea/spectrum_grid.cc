@@ -129,13 +129,18 @@ std::unique_ptr<const WaveSpectrum> MakeTableSpectrum(const DirectionTable& tabl
   return std::make_unique<TableSpectrum>(table, depth_m);
 }
 
-void ScaleToHs(DirectionTable& table, double hs_m) {
-  if (!(hs_m > 0.0)) return;
+double VarianceOf(const DirectionTable& table) {
   double variance = 0.0;
   for (std::size_t n = 1; n < table.frequency_hz.size(); ++n) {
     variance += 0.5 * (table.density_m2_per_hz[n] + table.density_m2_per_hz[n - 1]) *
                 (table.frequency_hz[n] - table.frequency_hz[n - 1]);
   }
+  return variance;
+}
+
+void ScaleToHs(DirectionTable& table, double hs_m) {
+  if (!(hs_m > 0.0)) return;
+  const double variance = VarianceOf(table);
   if (!(variance > 0.0)) return;
   const double scale = hs_m * hs_m / 16.0 / variance;
   for (double& density : table.density_m2_per_hz) density *= scale;

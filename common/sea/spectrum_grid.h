@@ -27,6 +27,9 @@ std::unique_ptr<const WaveSpectrum> MakeTableSpectrum(const DirectionTable& tabl
 DirectionTable TableOf(const GridSpectrum& spectrum);
 std::unique_ptr<const WaveSpectrum> MakeGridSpectrum(const GridSpectrum& spectrum, double depth_m);
 
+/// Trapezoidal m0 [m²] of S, without the tail.
+double VarianceOf(const DirectionTable& table);
+
 /// Scales S so that the trapezoidal m0 is hs_m²/16; leaves it for hs_m = 0.
 void ScaleToHs(DirectionTable& table, double hs_m);
 

@@ -60,15 +60,22 @@ absl::StatusOr<sea::PiersonMoskowitzSystem> Read(const v1::PiersonMoskowitzSyste
   return s;
 }
 
-absl::StatusOr<sea::JonswapSystem> Read(const v1::JonswapSystem& proto, std::string_view prefix) {
-  sea::JonswapSystem s;
-  s.hs_m = proto.hs_m();
-  s.tp_s = proto.tp_s();
+// What both JONSWAP systems have.
+template <typename Proto, typename System>
+absl::Status ReadPeaked(const Proto& proto, std::string_view prefix, System& s) {
   if (proto.has_gamma()) s.gamma = proto.gamma();
   ONESEA_ASSIGN_OR_RETURN(s.wave_to_rad,
                           DirectionFromProto(proto.direction(), prefix, "direction"));
   ONESEA_ASSIGN_OR_RETURN(s.spreading, ReadSpreading(proto.spreading(), prefix));
   s.use_depth = proto.use_depth();
+  return absl::OkStatus();
+}
+
+absl::StatusOr<sea::JonswapSystem> Read(const v1::JonswapSystem& proto, std::string_view prefix) {
+  sea::JonswapSystem s;
+  s.hs_m = proto.hs_m();
+  s.tp_s = proto.tp_s();
+  ONESEA_RETURN_IF_ERROR(ReadPeaked(proto, prefix, s));
   return s;
 }
 
@@ -77,11 +84,7 @@ absl::StatusOr<sea::FetchJonswapSystem> Read(const v1::FetchJonswapSystem& proto
   sea::FetchJonswapSystem s;
   s.wind_speed_m_per_s = proto.wind_speed_m_per_s();
   s.fetch_m = proto.fetch_m();
-  if (proto.has_gamma()) s.gamma = proto.gamma();
-  ONESEA_ASSIGN_OR_RETURN(s.wave_to_rad,
-                          DirectionFromProto(proto.direction(), prefix, "direction"));
-  ONESEA_ASSIGN_OR_RETURN(s.spreading, ReadSpreading(proto.spreading(), prefix));
-  s.use_depth = proto.use_depth();
+  ONESEA_RETURN_IF_ERROR(ReadPeaked(proto, prefix, s));
   return s;
 }
 
