@@ -67,7 +67,7 @@ absl::Status WatchAttempt::Run() {
     const gpr_timespec deadline = gpr_time_from_millis(100, GPR_TIMESPAN);
     if (queue_.AsyncNext(&tag, &ok, deadline) == grpc::CompletionQueue::GOT_EVENT) {
       --pending_;
-      OnEvent(static_cast<Op>(reinterpret_cast<std::intptr_t>(tag)), ok);
+      OnEvent(*static_cast<const Op*>(tag), ok);
     }
     OnTime(clock_.MonotonicNs());
   }

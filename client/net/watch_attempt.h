@@ -32,8 +32,11 @@ class WatchAttempt {
   bool said_farewell() const { return !farewell_.empty(); }
 
  private:
-  enum class Op : std::intptr_t { kStarted = 1, kRead, kWritten, kFinished, kExchanged };
-  static void* Tag(Op op) { return reinterpret_cast<void*>(op); }
+  enum class Op : std::uint8_t { kStarted, kRead, kWritten, kFinished, kExchanged };
+  // The queue hands back a pointer: to an element that says what it stands for.
+  static constexpr Op kOps[] = {Op::kStarted, Op::kRead, Op::kWritten, Op::kFinished,
+                                Op::kExchanged};
+  static void* Tag(Op op) { return const_cast<Op*>(&kOps[static_cast<std::size_t>(op)]); }
 
   void OnEvent(Op op, bool ok);
   void OnRead(bool ok);
