@@ -1,4 +1,5 @@
 #include "absl/strings/str_cat.h"
+#include "server/world/shallow_water.h"
 #include "server/world/wave_equation.h"
 #include "server/world/wave_solver.h"
 
@@ -8,8 +9,9 @@ absl::StatusOr<std::unique_ptr<WaveSolver>> MakeSolver(const SolverSpec& spec) {
   switch (spec.kind) {
     case SolverKind::kWaveEquation:
       return MakeWaveEquation(spec);
-    case SolverKind::kIwave:
     case SolverKind::kShallowWater:
+      return MakeShallowWater(spec);
+    case SolverKind::kIwave:
       break;
   }
   return absl::InvalidArgumentError(

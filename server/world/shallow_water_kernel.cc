@@ -1,0 +1,441 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "server/world/shallow_water_kernel.cc"
+#include "hwy/foreach_target.h"
+//
+#include <cstddef>
+
+#include "common/sea/constants.h"
+#include "hwy/highway.h"
+#include "server/world/shallow_water_kernel.h"
+#include "server/world/tile_transpose-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace onesea::world {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using D = hn::CappedTag<float, 16>;
+using V = hn::Vec<D>;
+
+// Lines that go through the recurrences side by side: two vectors hide the latency of the division.
+constexpr int kPair = 2;
+// Numbers smaller than this become zero; left alone they decay into slow subnormal ones.
+constexpr float kTiny = 1e-15f;
+// Time in which a cell that is half solid follows its rest height [s].
+constexpr float kHoldS = 0.1f;
+
+// Friction of sheets thinner than this.
+constexpr float kSheetDepthM = 0.1f;
+constexpr float kSheetDrag = 0.0025f;
+
+struct Line {
+  float* level;
+  const float* bottom;
+  float* velocity;        // through the face after each cell
+  const float* pressure;  // unused unless forced
+  const float* solid;
+  std::size_t pressure_stride;
+  float* height;  // null, or where the level of wet cells goes
+  std::size_t height_stride;
+  std::size_t stride;  // from cell to cell of level, bottom, velocity
+  int cells;
+  const float* keep_along;   // (cells)
+  const float* keep_across;  // (kStripLines)
+};
+
+struct Numbers {
+  explicit Numbers(const ShallowFields& f, bool held)
+      : step(f.step_per_cell),
+        theta(f.theta),
+        gravity_step(static_cast<float>(sea::kGravity) * f.step_per_cell),
+        coupling(f.theta * f.theta * gravity_step * f.step_per_cell),
+        keep_velocity(f.keep_velocity),
+        velocity_max(f.velocity_max),
+        sheet_drag(kSheetDrag * f.step_s),
+        open(f.open),
+        held(held ? 1.0f : 0.0f) {}
+  float step, theta, gravity_step, coupling, keep_velocity, velocity_max, sheet_drag;
+  bool open;
+  float held;
+};
+
+HWY_INLINE V WithoutTiny(V x) {
+  const D d;
+  return hn::IfThenElseZero(hn::Gt(hn::Abs(x), hn::Set(d, kTiny)), x);
+}
+
+// What a cell brings to the equations of its two faces.
+struct Cell {
+  V level, bottom, pressure, free;
+};
+
+template <bool kForced>
+HWY_INLINE Cell LoadCell(const Line& line, std::size_t i, std::size_t lane) {
+  const D d;
+  Cell cell;
+  cell.level = hn::LoadU(d, line.level + i * line.stride + lane);
+  cell.bottom = hn::LoadU(d, line.bottom + i * line.stride + lane);
+  if constexpr (kForced) {
+    cell.pressure = hn::LoadU(d, line.pressure + i * line.pressure_stride + lane);
+    cell.free =
+        hn::Sub(hn::Set(d, 1.0f), hn::LoadU(d, line.solid + i * line.pressure_stride + lane));
+  } else {
+    cell.pressure = hn::Zero(d);
+    cell.free = hn::Set(d, 1.0f);
+  }
+  return cell;
+}
+
+// Speed at which a wave leaves through an outer face: sqrt(g H), 0 for a wall.
+HWY_INLINE V LeavingSpeed(const Numbers& n, const Cell& cell) {
+  const D d;
+  if (!n.open) return hn::Zero(d);
+  const V depth = hn::Sub(cell.level, cell.bottom);
+  return hn::Sqrt(hn::Mul(hn::Set(d, static_cast<float>(sea::kGravity)), depth));
+}
+
+struct Face {
+  V depth;  // of the flow; 0 if a solid shuts it, -1 if it is dry
+  V push;   // g dt times the gradient of the head
+};
+
+// Water runs over the higher of the two grounds. Where the bottom is smooth the depth is that of
+// the level upstream over the mean of the grounds; the weir's own depth bounds it, so that a pool
+// behind a ridge stays there.
+template <bool kForced>
+HWY_INLINE Face FaceBetween(const Numbers& n, const Cell& a, const Cell& b, V velocity) {
+  const D d;
+  const V bed = hn::Max(a.bottom, b.bottom);
+  const V head_a = hn::Max(a.level, bed), head_b = hn::Max(b.level, bed);
+  const V weir = hn::Sub(hn::Max(head_a, head_b), bed);
+  const V upstream = hn::IfThenElse(hn::Gt(velocity, hn::Zero(d)), a.level, b.level);
+  const V mean_bed = hn::Mul(hn::Set(d, 0.5f), hn::Add(a.bottom, b.bottom));
+  V depth = hn::Min(hn::Sub(upstream, mean_bed), hn::Add(weir, weir));
+  V rise = hn::Sub(head_b, head_a);
+  if constexpr (kForced) {
+    rise = hn::Add(rise, hn::Sub(b.pressure, a.pressure));
+    depth = hn::Mul(depth, hn::Max(hn::Min(a.free, b.free), hn::Set(d, n.held)));
+  }
+  depth = hn::IfThenElseZero(hn::Gt(depth, hn::Set(d, kFilmDepthM)), depth);
+  depth = hn::IfThenElse(hn::Gt(weir, hn::Set(d, kFilmDepthM)), depth, hn::Set(d, -1.0f));
+  return {depth, hn::Mul(hn::Set(d, n.gravity_step), rise)};
+}
+
+// Forward elimination of the tridiagonal system of the rise of the level in this step: on return
+// rise[i] = offset[i] + gain[i] rise[i + 1]. Also leaves the depth of the faces and the velocity
+// that the present level gives them.
+template <bool kForced>
+HWY_INLINE void Eliminate(const Numbers& n, const Line& line, ShallowFields& f, std::size_t lane) {
+  const D d;
+  const std::size_t lanes = hn::Lanes(d);
+  const V one = hn::Set(d, 1.0f), step = hn::Set(d, n.step), theta = hn::Set(d, n.theta);
+  const V coupling = hn::Set(d, n.coupling), step_theta = hn::Mul(step, theta);
+  const V row_least = hn::Set(d, 1.0f - n.held);
+  const std::size_t cells = line.cells;
+  Cell cell[kPair];
+  V before[kPair], gain[kPair], offset[kPair], inflow[kPair], leaving[kPair];
+  for (int k = 0; k < kPair; ++k) {
+    cell[k] = LoadCell<kForced>(line, 0, lane + k * lanes);
+    leaving[k] = LeavingSpeed(n, cell[k]);
+    inflow[k] = hn::Neg(hn::Mul(leaving[k], cell[k].level));
+    before[k] = gain[k] = offset[k] = hn::Zero(d);
+  }
+  for (std::size_t i = 0; i < cells; ++i) {
+    for (int k = 0; k < kPair; ++k) {
+      const std::size_t at = i * kStripLines + lane + k * lanes;
+      V after = hn::Zero(d), outflow;
+      Cell next = cell[k];
+      if (i + 1 < cells) {
+        next = LoadCell<kForced>(line, i + 1, lane + k * lanes);
+        const V velocity = hn::LoadU(d, line.velocity + i * line.stride + lane + k * lanes);
+        const Face face = FaceBetween<kForced>(n, cell[k], next, velocity);
+        const V depth = hn::Max(face.depth, hn::Zero(d));
+        outflow = hn::Mul(depth, hn::Sub(velocity, hn::Mul(theta, face.push)));
+        after = hn::Mul(coupling, depth);
+        hn::Store(face.depth, d, f.depth.get() + at);
+        hn::Store(hn::Sub(velocity, face.push), d, f.moved.get() + at);
+      } else {
+        const V speed = LeavingSpeed(n, cell[k]);
+        leaving[k] = hn::Add(leaving[k], speed);
+        outflow = hn::Mul(speed, cell[k].level);
+      }
+      V left = before[k], right = after;
+      V rise = hn::Mul(step, hn::Sub(inflow[k], outflow));
+      V own = hn::Mul(step_theta, leaving[k]);
+      if constexpr (kForced) {
+        const V row = hn::Max(cell[k].free, row_least);
+        left = hn::Mul(row, left);
+        right = hn::Mul(row, right);
+        rise = hn::Mul(row, rise);
+        own = hn::Mul(row, own);
+      }
+      const V diagonal = hn::Add(hn::Add(one, own), hn::Add(left, right));
+      const V inverse = hn::Div(one, hn::Sub(diagonal, hn::Mul(left, gain[k])));
+      gain[k] = hn::Mul(right, inverse);
+      offset[k] = WithoutTiny(hn::Mul(hn::Add(rise, hn::Mul(left, offset[k])), inverse));
+      hn::Store(gain[k], d, f.gain.get() + at);
+      hn::Store(offset[k], d, f.offset.get() + at);
+      leaving[k] = hn::Zero(d);
+      inflow[k] = outflow;
+      before[k] = after;
+      cell[k] = next;
+    }
+  }
+}
+
+// The flux through an outer face, that of the waves which leave there.
+HWY_INLINE void StoreOutflow(const Numbers& n, const Line& line, ShallowFields& f, std::size_t i,
+                             std::size_t face, std::size_t lane, V rise, bool west) {
+  const D d;
+  const Cell cell = LoadCell<false>(line, i, lane);
+  const V flux =
+      hn::Mul(LeavingSpeed(n, cell), hn::Add(cell.level, hn::Mul(hn::Set(d, n.theta), rise)));
+  hn::Store(west ? hn::Neg(flux) : flux, d, f.flux.get() + face * kStripLines + lane);
+}
+
+// A thin sheet is slowed by the ground: u' = -C |u| u / H, implicitly.
+HWY_INLINE V SlowSheet(const Numbers& n, V depth, V velocity) {
+  const D d;
+  const auto sheet = hn::And(hn::Lt(depth, hn::Set(d, kSheetDepthM)), hn::Gt(depth, hn::Zero(d)));
+  if (hn::AllFalse(d, sheet)) return velocity;
+  const V drag = hn::Mul(hn::Set(d, n.sheet_drag), hn::Abs(velocity));
+  const V slowed = hn::Div(hn::Mul(velocity, depth), hn::Add(depth, drag));
+  return hn::IfThenElse(sheet, slowed, velocity);
+}
+
+// What a dry face has when water gets there: the velocity of the wet face behind it. (Advection
+// would carry it there; without it a front would start from rest in every cell.)
+HWY_INLINE V Inherit(V west_depth, V west, V east_depth, V east) {
+  const D d;
+  const V zero = hn::Zero(d);
+  const V from_west = hn::IfThenElseZero(hn::Gt(west_depth, zero), hn::Max(west, zero));
+  const V from_east = hn::IfThenElseZero(hn::Gt(east_depth, zero), hn::Min(east, zero));
+  return hn::Add(from_west, from_east);
+}
+
+// Back substitution: the new velocity of every face, and the flux through it during the step.
+HWY_INLINE void Substitute(const Numbers& n, const Line& line, ShallowFields& f, std::size_t lane) {
+  const D d;
+  const std::size_t lanes = hn::Lanes(d), cells = line.cells;
+  const V zero = hn::Zero(d), theta = hn::Set(d, n.theta), rest = hn::Set(d, 1.0f - n.theta);
+  const V pull = hn::Mul(theta, hn::Set(d, n.gravity_step));
+  V rise[kPair], keep[kPair], depth[kPair], old[kPair], east_depth[kPair], east_old[kPair];
+  for (int k = 0; k < kPair; ++k) {
+    const std::size_t own = lane + k * lanes, last = cells - 1;
+    keep[k] = hn::Mul(hn::Set(d, n.keep_velocity), hn::LoadU(d, line.keep_across + own));
+    rise[k] = hn::Load(d, f.offset.get() + last * kStripLines + own);
+    StoreOutflow(n, line, f, last, cells, own, rise[k], false);
+    east_depth[k] = east_old[k] = zero;
+    depth[k] = hn::Load(d, f.depth.get() + (last - 1) * kStripLines + own);
+    old[k] = hn::LoadU(d, line.velocity + (last - 1) * line.stride + own);
+  }
+  for (std::size_t i = cells - 1; i-- > 0;) {
+    const V along = hn::Set(d, line.keep_along[i]);
+    for (int k = 0; k < kPair; ++k) {
+      const std::size_t own = lane + k * lanes, at = i * kStripLines + own;
+      const V next = rise[k];
+      rise[k] =
+          hn::Add(hn::Load(d, f.offset.get() + at), hn::Mul(hn::Load(d, f.gain.get() + at), next));
+      V west_depth = zero, west_old = zero;
+      if (i > 0) {
+        west_depth = hn::Load(d, f.depth.get() + at - kStripLines);
+        west_old = hn::LoadU(d, line.velocity + (i - 1) * line.stride + own);
+      }
+      V fresh = hn::Sub(hn::Load(d, f.moved.get() + at), hn::Mul(pull, hn::Sub(next, rise[k])));
+      const V mean = hn::Add(hn::Mul(theta, fresh), hn::Mul(rest, old[k]));
+      const V wet_depth = hn::Max(depth[k], zero);
+      hn::Store(hn::Mul(wet_depth, mean), d, f.flux.get() + at + kStripLines);
+      fresh = SlowSheet(n, depth[k], fresh);
+      const auto dry = hn::Lt(depth[k], zero);
+      fresh = hn::IfThenElseZero(hn::Gt(depth[k], zero), fresh);
+      if (!hn::AllFalse(d, dry)) {
+        const V inherited = Inherit(west_depth, west_old, east_depth[k], east_old[k]);
+        fresh = hn::IfThenElse(dry, inherited, fresh);
+      }
+      const V kept = WithoutTiny(hn::Mul(hn::Mul(along, keep[k]), fresh));
+      const V limit = hn::Set(d, n.velocity_max);
+      hn::StoreU(hn::Min(hn::Max(kept, hn::Neg(limit)), limit), d,
+                 line.velocity + i * line.stride + own);
+      east_depth[k] = depth[k];
+      east_old[k] = old[k];
+      depth[k] = west_depth;
+      old[k] = west_old;
+    }
+  }
+  for (int k = 0; k < kPair; ++k) {
+    StoreOutflow(n, line, f, 0, 0, lane + k * lanes, rise[k], true);
+  }
+}
+
+// Writes the cell's new level and, if wanted, its height.
+template <bool kForced>
+HWY_INLINE void Settle(const Numbers& n, const Line& line, std::size_t i, std::size_t lane,
+                       const Cell& cell, V inflow, V outflow) {
+  const D d;
+  V rise = hn::Mul(hn::Set(d, n.step), hn::Sub(inflow, outflow));
+  if constexpr (kForced) rise = hn::Mul(hn::Max(cell.free, hn::Set(d, 1.0f - n.held)), rise);
+  V level = hn::Add(cell.level, rise);
+  if (line.height != nullptr) {  // the second sweep
+    const V keep = hn::Mul(hn::Set(d, line.keep_along[i]), hn::LoadU(d, line.keep_across + lane));
+    level = WithoutTiny(hn::Mul(level, keep));
+  }
+  level = hn::Max(level, cell.bottom);
+  hn::StoreU(level, d, line.level + i * line.stride + lane);
+  if (line.height != nullptr) {
+    const auto wet = hn::Gt(hn::Sub(level, cell.bottom), hn::Set(d, kDryDepthM));
+    hn::StoreU(hn::IfThenElseZero(wet, level), d, line.height + i * line.height_stride + lane);
+  }
+}
+
+// Moves the water. No cell gives more than it has: the fluxes out of one that would are scaled
+// down. What leaves a cell enters its neighbour.
+template <bool kForced>
+HWY_INLINE void Move(const Numbers& n, const Line& line, ShallowFields& f, std::size_t lane) {
+  const D d;
+  const V one = hn::Set(d, 1.0f), zero = hn::Zero(d), step = hn::Set(d, n.step);
+  const std::size_t cells = line.cells;
+  Cell cell = LoadCell<kForced>(line, 0, lane);
+  V share = one, west = zero, flux = hn::Load(d, f.flux.get() + lane);
+  bool limited = false;
+  for (std::size_t i = 0; i <= cells; ++i) {
+    V own_share = one, next_flux = zero;
+    Cell own = cell;
+    bool own_limited = false;
+    if (i < cells) {
+      if (i > 0) own = LoadCell<kForced>(line, i, lane);
+      next_flux = hn::Load(d, f.flux.get() + (i + 1) * kStripLines + lane);
+      const V out = hn::Mul(step, hn::Sub(hn::Max(next_flux, zero), hn::Min(flux, zero)));
+      const V water = hn::Sub(own.level, own.bottom);
+      const auto over = hn::Gt(out, water);
+      own_limited = !hn::AllFalse(d, over);
+      if (own_limited) own_share = hn::IfThenElse(over, hn::Div(water, out), one);
+    }
+    if (limited || own_limited) {
+      const V factor = hn::IfThenElse(hn::Gt(flux, zero), share, own_share);
+      flux = hn::Mul(flux, factor);
+    }
+    if (i > 0) Settle<kForced>(n, line, i - 1, lane, cell, west, flux);
+    west = flux;
+    flux = next_flux;
+    share = own_share;
+    limited = own_limited;
+    cell = own;
+  }
+}
+
+template <bool kForced>
+HWY_INLINE void SweepStrip(const Numbers& n, const Line& line, ShallowFields& f) {
+  const std::size_t lanes = hn::Lanes(D());
+  for (std::size_t lane = 0; lane < kStripLines; lane += kPair * lanes) {
+    Eliminate<kForced>(n, line, f, lane);
+    Substitute(n, line, f, lane);
+    for (int k = 0; k < kPair; ++k) Move<kForced>(n, line, f, lane + k * lanes);
+  }
+}
+
+template <bool kForced>
+void SweepX(const Numbers& n, ShallowFields& f, const ShallowForcing& forcing) {
+  const std::size_t columns = f.columns;
+  for (std::size_t row = 0; row < static_cast<std::size_t>(f.rows); row += kStripLines) {
+    float* level = f.level.get() + row * f.pitch;
+    tile::Transpose(level, f.pitch, kStripLines, columns, f.level_across.get(), kStripLines);
+    if constexpr (kForced) {
+      tile::Transpose(forcing.pressure_head_m + row * columns, columns, kStripLines, columns,
+                      f.pressure_across.get(), kStripLines);
+      tile::Transpose(forcing.solid + row * columns, columns, kStripLines, columns,
+                      f.solid_across.get(), kStripLines);
+    }
+    const Line line = {.level = f.level_across.get(),
+                       .bottom = f.bottom_across.get() + row * columns,
+                       .velocity = f.u.get() + row * columns,
+                       .pressure = f.pressure_across.get(),
+                       .solid = f.solid_across.get(),
+                       .pressure_stride = kStripLines,
+                       .height = nullptr,
+                       .height_stride = 0,
+                       .stride = kStripLines,
+                       .cells = f.columns,
+                       .keep_along = f.keep_x.get(),
+                       .keep_across = f.keep_y.get() + row};
+    SweepStrip<kForced>(n, line, f);
+    tile::Transpose(f.level_across.get(), kStripLines, columns, kStripLines, level, f.pitch);
+  }
+}
+
+template <bool kForced>
+void SweepY(const Numbers& n, ShallowFields& f, const ShallowForcing& forcing) {
+  for (std::size_t column = 0; column < static_cast<std::size_t>(f.columns);
+       column += kStripLines) {
+    const Line line = {.level = f.level.get() + column,
+                       .bottom = f.bottom.get() + column,
+                       .velocity = f.v.get() + column,
+                       .pressure = kForced ? forcing.pressure_head_m + column : nullptr,
+                       .solid = kForced ? forcing.solid + column : nullptr,
+                       .pressure_stride = static_cast<std::size_t>(f.columns),
+                       .height = f.height.get() + column,
+                       .height_stride = static_cast<std::size_t>(f.columns),
+                       .stride = f.pitch,
+                       .cells = f.rows,
+                       .keep_along = f.keep_y.get(),
+                       .keep_across = f.keep_x.get() + column};
+    SweepStrip<kForced>(n, line, f);
+  }
+}
+
+// Sources, and what holds solid cells: in a step the share 1 - exp(-x), x = dt s / ((1 - s) T), of
+// the way to the rest height, with exp(x) = 1 + x + x²/2: all of it for s = 1.
+void ApplyForcing(ShallowFields& f, const ShallowForcing& forcing) {
+  const D d;
+  const V step = hn::Set(d, f.step_s), one = hn::Set(d, 1.0f), hold = hn::Set(d, kHoldS);
+  const V least = hn::Set(d, 1e-30f);
+  for (std::size_t row = 0; row < static_cast<std::size_t>(f.rows); ++row) {
+    const std::size_t start = row * f.columns;
+    for (std::size_t c = 0; c < static_cast<std::size_t>(f.columns); c += hn::Lanes(d)) {
+      float* at = f.level.get() + row * f.pitch + c;
+      V level = hn::Load(d, at);
+      if (forcing.source_m != nullptr) {
+        level = hn::Add(level, hn::LoadU(d, forcing.source_m + start + c));
+      }
+      if (forcing.rest_height_m != nullptr) {
+        const V solid = hn::LoadU(d, forcing.solid + start + c);
+        const V pull = hn::Mul(step, solid), slack = hn::Mul(hold, hn::Sub(one, solid));
+        const V part = hn::Mul(pull, hn::Add(slack, hn::Mul(hn::Set(d, 0.5f), pull)));
+        const V share = hn::Div(part, hn::Max(hn::Add(part, hn::Mul(slack, slack)), least));
+        const V rest = hn::LoadU(d, forcing.rest_height_m + start + c);
+        level = hn::Add(level, hn::Mul(share, hn::Sub(rest, level)));
+      }
+      hn::Store(hn::Max(level, hn::Load(d, f.bottom.get() + row * f.pitch + c)), d, at);
+    }
+  }
+}
+
+void Step(ShallowFields& f, const ShallowForcing& forcing) {
+  const bool held = forcing.rest_height_m != nullptr;
+  const Numbers n(f, held);
+  if (held || forcing.source_m != nullptr) ApplyForcing(f, forcing);
+  if (forcing.pressure_head_m != nullptr || forcing.solid != nullptr) {
+    ShallowForcing whole = forcing;
+    if (whole.pressure_head_m == nullptr) whole.pressure_head_m = f.zeros.get();
+    if (whole.solid == nullptr) whole.solid = f.zeros.get();
+    SweepX<true>(n, f, whole);
+    SweepY<true>(n, f, whole);
+  } else {
+    SweepX<false>(n, f, forcing);
+    SweepY<false>(n, f, forcing);
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace onesea::world
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace onesea::world {
+HWY_EXPORT(Step);
+
+void StepShallowWater(ShallowFields& fields, const ShallowForcing& forcing) {
+  HWY_DYNAMIC_DISPATCH(Step)(fields, forcing);
+}
+
+}  // namespace onesea::world
+#endif  // HWY_ONCE
