@@ -11,7 +11,7 @@
 ///
 ///   η  m     level of the water above the mean, at cell centres; on dry land the ground's
 ///   b  m     the bottom, η >= b;  H = η - b, on a face see below
-///   u  m/s   mean velocity over the depth, through the east face of a cell; v through the north one
+///   u  m/s   mean velocity over the depth, through the east face of a cell; v: the north face
 ///   p  m     pressure head on the surface
 ///   α  1/s   damping_per_s: energy of a wave falls as exp(-α t)
 ///

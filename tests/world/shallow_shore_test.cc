@@ -102,7 +102,8 @@ double ErrorAfterASwing(int side, double cell_m) {
 TEST(ShallowWater, SwingsInAParaboloidAsThackerSays) { EXPECT_LT(ErrorAfterASwing(192, 0.5), 0.1); }
 
 // Run-up of a wave that doesn't break: R/d = 2.831 √(cot β) (H/d)^5/4. The law follows from the
-// linear theory, whose largest run-up is the non-linear one's; ours lacks the advection, which costs it some 15 %.
+// linear theory, whose largest run-up is the non-linear one's; ours lacks the advection, which
+// costs it some 15 %.
 // Source: C. E. Synolakis, "The runup of solitary waves", J. Fluid Mech. 185, 1987.
 TEST(ShallowWater, RunsUpABeachAsSynolakisSays) {
   constexpr double kSlope = 19.85, kHeight = 0.0185;  // of a depth of 1 m
