@@ -118,23 +118,45 @@ SimTime SeaSnapshot::time() const { return impl_->time; }
 QueryDetail SeaSnapshot::detail() const { return impl_->detail; }
 double SeaSnapshot::HeightErrorBound() const { return impl_->height_error_bound_m; }
 
-void SeaSnapshot::Sample(std::span<const Vec2d> points, std::span<SurfaceSample> out) const {
-  ONESEA_CHECK(points.size() == out.size())
-      << points.size() << " points, " << out.size() << " answers";
+// A block's heights and displacements.
+void SeaSnapshot::Invert(std::span<const Vec2d> points, std::span<SurfaceSample> out) const {
   for (const Vec2d& point : points) {
     ONESEA_CHECK(std::abs(point.x) <= kCoordinateMaxM && std::abs(point.y) <= kCoordinateMaxM)
         << "point (" << point.x << ", " << point.y << "); callers validate";
   }
   std::array<bool, kQueryBlock> suspicious;
+  SampleBlock(impl_->grids, points, out, std::span(suspicious).first(points.size()));
+  for (std::size_t n = 0; n < points.size(); ++n) {
+    if (suspicious[n]) FindTopSheet(impl_->grids, points[n], out[n]);
+  }
+}
+
+void SeaSnapshot::Sample(std::span<const Vec2d> points, std::span<SurfaceSample> out) const {
+  ONESEA_CHECK(points.size() == out.size())
+      << points.size() << " points, " << out.size() << " answers";
   for (std::size_t start = 0; start < points.size(); start += kQueryBlock) {
     const std::size_t count = std::min<std::size_t>(kQueryBlock, points.size() - start);
     const auto block_points = points.subspan(start, count);
     const auto block_out = out.subspan(start, count);
-    SampleBlock(impl_->grids, block_points, block_out, std::span(suspicious).first(count));
-    for (std::size_t n = 0; n < count; ++n) {
-      if (suspicious[n]) FindTopSheet(impl_->grids, block_points[n], block_out[n]);
-    }
+    Invert(block_points, block_out);
     if (impl_->detail != QueryDetail::kHeight) FinishBlock(impl_->grids, block_points, block_out);
+  }
+}
+
+int SeaSnapshot::bands() const { return BandCount(impl_->grids); }
+
+void SeaSnapshot::SampleBands(std::span<const Vec2d> points, std::span<float> out) const {
+  ONESEA_CHECK(impl_->detail == QueryDetail::kVelocity);
+  const std::size_t floats = 4 * static_cast<std::size_t>(bands());
+  ONESEA_CHECK(out.size() == floats * points.size());
+  std::array<SurfaceSample, kQueryBlock> samples;
+  for (std::size_t start = 0; start < points.size(); start += kQueryBlock) {
+    const std::size_t count = std::min<std::size_t>(kQueryBlock, points.size() - start);
+    const auto block_points = points.subspan(start, count);
+    const auto block_samples = std::span(samples).first(count);
+    Invert(block_points, block_samples);
+    BandBlock(impl_->grids, block_points, block_samples,
+              out.subspan(floats * start, floats * count));
   }
 }
 

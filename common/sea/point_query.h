@@ -54,6 +54,13 @@ class SeaSnapshot {
   /// allocates nothing.
   void Sample(std::span<const Vec2d> points, std::span<SurfaceSample> out) const;
 
+  /// The sea at the same places in its bands, which reach down to different depths: one band per
+  /// cascade, one more for all regular waves together if there are any. `out`: (points x bands x
+  /// 4), height and velocity x, y, z of the water at the surface, without the current [m, m/s].
+  /// Pre: detail() is kVelocity. Cost: about 0.4 µs a point.
+  int bands() const;
+  void SampleBands(std::span<const Vec2d> points, std::span<float> out) const;
+
   /// Bound [m] of |height_m - exact| for unfolded points: spline interpolation plus inversion, some
   /// millimetres even in a storm; see point_query.cc for its derivation and for the probability
   /// with which it holds.
@@ -61,6 +68,8 @@ class SeaSnapshot {
 
  private:
   friend class SnapshotBuilder;
+  void Invert(std::span<const Vec2d> points, std::span<SurfaceSample> out) const;
+
   std::unique_ptr<const Impl> impl_;
 };
 
@@ -79,6 +88,10 @@ class SnapshotBuilder {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+/// The wavenumber [rad/m] that stands for each band of SeaSnapshot::SampleBands() at `time`: the
+/// mean over its waves, weighted by variance; of an empty band that of its middle.
+std::vector<double> BandWavenumbers(const Components& components, SimTime time);
 
 /// Below the surface: the direct sum over every component, exact; about 15 µs a point. `depth_m` >=
 /// 0 below z = 0.

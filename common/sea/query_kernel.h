@@ -65,4 +65,14 @@ void SampleBlock(const QueryGrids& grids, std::span<const Vec2d> points,
 void FinishBlock(const QueryGrids& grids, std::span<const Vec2d> points,
                  std::span<SurfaceSample> out);
 
+/// One per cascade, one more for all regular waves together if there are any.
+inline int BandCount(const QueryGrids& grids) {
+  return static_cast<int>(grids.cascades.size()) + (grids.regular.empty() ? 0 : 1);
+}
+
+/// Height and velocity x, y, z of each band at points whose displacement stands in `samples`; out:
+/// (points x bands x 4). Pre: the grids have velocities.
+void BandBlock(const QueryGrids& grids, std::span<const Vec2d> points,
+               std::span<const SurfaceSample> samples, std::span<float> out);
+
 }  // namespace onesea::sea
