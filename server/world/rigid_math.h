@@ -27,6 +27,15 @@ struct Mat3d {
     return {a.m[0] * v.x + a.m[1] * v.y + a.m[2] * v.z, a.m[3] * v.x + a.m[4] * v.y + a.m[5] * v.z,
             a.m[6] * v.x + a.m[7] * v.y + a.m[8] * v.z};
   }
+  friend Mat3d operator*(const Mat3d& a, const Mat3d& b) {
+    Mat3d out;
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) {
+        for (int k = 0; k < 3; ++k) out(i, j) += a(i, k) * b(k, j);
+      }
+    }
+    return out;
+  }
   /// Transpose times vector: world to body where the matrix is body to world.
   Vec3d TransposeTimes(Vec3d v) const {
     return {m[0] * v.x + m[3] * v.y + m[6] * v.z, m[1] * v.x + m[4] * v.y + m[7] * v.z,
@@ -89,6 +98,23 @@ inline Vec6 operator*(const Mat6& a, const Vec6& v) {
     for (int j = 0; j < 6; ++j) out[i] += a[i][j] * v[j];
   }
   return out;
+}
+inline Vec6 operator+(Vec6 a, const Vec6& b) {
+  for (int i = 0; i < 6; ++i) a[i] += b[i];
+  return a;
+}
+inline Vec6 operator-(Vec6 a, const Vec6& b) {
+  for (int i = 0; i < 6; ++i) a[i] -= b[i];
+  return a;
+}
+inline Vec6 operator*(double s, Vec6 a) {
+  for (double& value : a) value *= s;
+  return a;
+}
+inline void AddTo(Mat6& sum, double s, const Mat6& a) {
+  for (int i = 0; i < 6; ++i) {
+    for (int j = 0; j < 6; ++j) sum[i][j] += s * a[i][j];
+  }
 }
 inline double Dot(const Vec6& a, const Vec6& b) {
   double sum = 0.0;

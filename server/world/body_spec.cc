@@ -1,0 +1,216 @@
+#include "server/world/body_spec.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "absl/strings/str_cat.h"
+#include "common/base/limits.h"
+#include "common/base/range_check.h"
+
+namespace onesea::world {
+namespace {
+
+constexpr int kNameBytesMax = 64;
+constexpr double kDensityMaxKgPerM3 = 25'000.0;
+
+absl::Status CheckPlace(const std::string& field, Vec3d v) {
+  for (double value : {v.x, v.y, v.z}) {
+    if (absl::Status s = CheckInRange(field, value, -kHullSizeMaxM, kHullSizeMaxM); !s.ok()) {
+      return s;
+    }
+  }
+  return absl::OkStatus();
+}
+
+// Cholesky's pivots of a + shift: all positive, so no direction has negative energy.
+bool IsPositive(const Mat6& a, double relative_shift) {
+  double l[6][6] = {};
+  double scale = 0.0;
+  for (int i = 0; i < 6; ++i) scale = std::max(scale, std::abs(a[i][i]));
+  for (int i = 0; i < 6; ++i) {
+    for (int j = 0; j <= i; ++j) {
+      double sum = a[i][j] + (i == j ? relative_shift * scale : 0.0);
+      for (int k = 0; k < j; ++k) sum -= l[i][k] * l[j][k];
+      if (i == j && !(sum > 0.0)) return false;
+      l[i][j] = i == j ? std::sqrt(sum) : sum / l[j][j];
+    }
+  }
+  return true;
+}
+
+absl::Status CheckMatrix(const std::string& field, const Mat6& a) {
+  for (int i = 0; i < 6; ++i) {
+    for (int j = 0; j < 6; ++j) {
+      if (absl::Status s =
+              CheckInRange(absl::StrCat(field, "[", i, "][", j, "]"), a[i][j], -1e15, 1e15);
+          !s.ok()) {
+        return s;
+      }
+      const double scale = std::sqrt(std::abs(a[i][i] * a[j][j]));
+      if (!(std::abs(a[i][j] - a[j][i]) <= 1e-6 * scale + 1e-9)) {
+        return absl::InvalidArgumentError(absl::StrCat(field, " is not symmetric: [", i, "][", j,
+                                                       "] = ", a[i][j], ", [", j, "][", i,
+                                                       "] = ", a[j][i]));
+      }
+    }
+  }
+  Mat6 zero{};
+  if (a != zero && !IsPositive(a, 1e-9)) {
+    return absl::InvalidArgumentError(
+        absl::StrCat(field, " has a direction of negative energy: it must be positive"));
+  }
+  return absl::OkStatus();
+}
+
+absl::Status CheckShape(const BodyShape& shape) {
+  const auto size = [](const char* field, double value) {
+    return CheckInRange(field, value, kHullSizeMinM, kHullSizeMaxM);
+  };
+  switch (shape.kind) {
+    case ShapeKind::kBox:
+      for (double side : {shape.size_m.x, shape.size_m.y, shape.size_m.z}) {
+        if (absl::Status s = size("shape.size_m", side); !s.ok()) return s;
+      }
+      return absl::OkStatus();
+    case ShapeKind::kSphere:
+      return size("shape.radius_m", shape.radius_m);
+    case ShapeKind::kCylinder:
+    case ShapeKind::kCapsule:
+      if (absl::Status s = size("shape.radius_m", shape.radius_m); !s.ok()) return s;
+      return size("shape.length_m", shape.length_m);
+    case ShapeKind::kMesh:
+      return ValidateMesh(shape.mesh);
+  }
+  return absl::InvalidArgumentError(
+      absl::StrCat("shape.kind = ", static_cast<int>(shape.kind), " is unknown"));
+}
+
+absl::Status CheckInertia(const Mat3d& inertia) {
+  Mat6 wide{};
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) wide[i][j] = inertia(i, j);
+    wide[3 + i][3 + i] = std::abs(inertia(i, i));
+  }
+  if (absl::Status s = CheckMatrix("inertia_kg_m2", wide); !s.ok()) return s;
+  if (!IsPositive(wide, -1e-9)) {
+    return absl::InvalidArgumentError("inertia_kg_m2 must be positive about every axis");
+  }
+  return absl::OkStatus();
+}
+
+absl::Status CheckThruster(const std::string& field, const ThrusterSpec& t) {
+  for (const absl::Status& s :
+       {CheckPlace(field + ".position_m", t.position_m),
+        CheckInRange(field + ".direction (its length)", Norm(t.direction), 0.999, 1.001),
+        CheckAbove(field + ".diameter_m", t.diameter_m, 0.0, 20.0),
+        CheckAbove(field + ".turns_per_s_max", t.turns_per_s_max, 0.0, 200.0),
+        CheckInRange(field + ".kt", t.kt, 0.0, 1.0),
+        CheckInRange(field + ".kt_slope", t.kt_slope, 0.0, 2.0),
+        CheckInRange(field + ".lag_s", t.lag_s, 0.0, 60.0),
+        CheckInRange(field + ".steer_rad_max", t.steer_rad_max, 0.0, sea::kPi)}) {
+    if (!s.ok()) return s;
+  }
+  return absl::OkStatus();
+}
+
+absl::Status CheckRudder(const std::string& field, const RudderSpec& r, std::size_t thrusters) {
+  for (const absl::Status& s :
+       {CheckPlace(field + ".position_m", r.position_m),
+        CheckAbove(field + ".area_m2", r.area_m2, 0.0, 1000.0),
+        CheckAbove(field + ".aspect_ratio", r.aspect_ratio, 0.0, 10.0),
+        CheckAbove(field + ".angle_rad_max", r.angle_rad_max, 0.0, 0.5 * sea::kPi),
+        CheckInRange(field + ".lag_s", r.lag_s, 0.0, 60.0),
+        CheckInRange(field + ".behind_thruster", r.behind_thruster, -1,
+                     static_cast<double>(thrusters) - 1)}) {
+    if (!s.ok()) return s;
+  }
+  return absl::OkStatus();
+}
+
+absl::Status CheckGear(const BodySpec& spec) {
+  const DragCoefficients& d = spec.drag;
+  const Windage& w = spec.windage;
+  for (const absl::Status& s :
+       {CheckInRange("drag.friction", d.friction, 0.0, 1.0),
+        CheckInRange("drag.pressure", d.pressure, 0.0, 10.0),
+        CheckInRange("drag.suction", d.suction, 0.0, 10.0),
+        CheckInRange("drag.planing", d.planing, 0.0, 10.0),
+        CheckInRange("windage.frontal_area_m2", w.frontal_area_m2, 0.0, 1e5),
+        CheckInRange("windage.lateral_area_m2", w.lateral_area_m2, 0.0, 1e5),
+        CheckInRange("windage.frontal_coefficient", w.frontal_coefficient, 0.0, 5.0),
+        CheckInRange("windage.lateral_coefficient", w.lateral_coefficient, 0.0, 5.0),
+        CheckPlace("windage.centre_m", w.centre_m),
+        CheckInRange("contact_friction", spec.contact_friction, 0.0, 2.0),
+        CheckInRange("contact_restitution", spec.contact_restitution, 0.0, 1.0),
+        CheckInRange("thrusters (count)", static_cast<double>(spec.thrusters.size()), 0,
+                     kThrustersMax),
+        CheckInRange("rudders (count)", static_cast<double>(spec.rudders.size()), 0, kRuddersMax),
+        CheckInRange("heave_memory (steps)", static_cast<double>(spec.heave_memory.kernel.size()),
+                     0, 4097)}) {
+    if (!s.ok()) return s;
+  }
+  for (double value : spec.heave_memory.kernel) {
+    if (absl::Status s = CheckInRange("heave_memory", value, -1e15, 1e15); !s.ok()) return s;
+  }
+  for (std::size_t n = 0; n < spec.thrusters.size(); ++n) {
+    const absl::Status s = CheckThruster(absl::StrCat("thrusters[", n, "]"), spec.thrusters[n]);
+    if (!s.ok()) return s;
+  }
+  for (std::size_t n = 0; n < spec.rudders.size(); ++n) {
+    const absl::Status s =
+        CheckRudder(absl::StrCat("rudders[", n, "]"), spec.rudders[n], spec.thrusters.size());
+    if (!s.ok()) return s;
+  }
+  return absl::OkStatus();
+}
+
+absl::Status CheckNames(const BodySpec& spec) {
+  for (const auto& [field, value] :
+       {std::pair("name", &spec.name), std::pair("owner", &spec.owner)}) {
+    if (value->size() > kNameBytesMax) {
+      return absl::InvalidArgumentError(
+          absl::StrCat(field, " has ", value->size(), " bytes, at most ", kNameBytesMax));
+    }
+  }
+  if (spec.control != BodyControl::kIntegrated && spec.control != BodyControl::kByOwner) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("control = ", static_cast<int>(spec.control), " is unknown"));
+  }
+  if (spec.radiation != Radiation::kCoefficients && spec.radiation != Radiation::kGrid) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("radiation = ", static_cast<int>(spec.radiation), " is unknown"));
+  }
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+absl::Status ValidateBodySpec(const BodySpec& spec) {
+  for (const absl::Status& s :
+       {CheckNames(spec), CheckInRange("mass_kg", spec.mass_kg, kBodyMassMinKg, kBodyMassMaxKg),
+        CheckShape(spec.shape), CheckGear(spec)}) {
+    if (!s.ok()) return s;
+  }
+  const double volume = ComputeSolid(MakeMesh(spec.shape)).volume_m3;
+  if (!(spec.mass_kg <= kDensityMaxKgPerM3 * volume)) {
+    return absl::InvalidArgumentError(absl::StrCat("mass_kg = ", spec.mass_kg, " in ", volume,
+                                                   " m³ is denser than ", kDensityMaxKgPerM3,
+                                                   " kg/m³"));
+  }
+  if (spec.centre_of_mass_m) {
+    const absl::Status s = CheckPlace("centre_of_mass_m", *spec.centre_of_mass_m);
+    if (!s.ok()) return s;
+  }
+  if (spec.inertia_kg_m2) {
+    if (absl::Status s = CheckInertia(*spec.inertia_kg_m2); !s.ok()) return s;
+  }
+  for (const auto& [field, matrix] : {std::pair("added_mass", &spec.added_mass),
+                                      std::pair("radiation_damping", &spec.radiation_damping),
+                                      std::pair("viscous_damping", &spec.viscous_damping)}) {
+    if (!*matrix) continue;
+    if (absl::Status s = CheckMatrix(field, **matrix); !s.ok()) return s;
+  }
+  return CheckMatrix("quadratic_damping", spec.quadratic_damping);
+}
+
+}  // namespace onesea::world

@@ -1,0 +1,109 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "common/sea/constants.h"
+#include "server/world/hydrostatics.h"
+#include "server/world/propulsion.h"
+#include "server/world/radiation_memory.h"
+#include "server/world/wet_hull.h"
+
+/// What a floating body is.
+namespace onesea::world {
+
+enum class ShapeKind : std::uint8_t {
+  kBox = 1,
+  kSphere = 2,
+  kCylinder = 3,  ///< axis along z
+  kCapsule = 4,   ///< axis along x
+  kMesh = 5,
+};
+struct BodyShape {
+  ShapeKind kind = ShapeKind::kBox;
+  Vec3d size_m{1.0, 1.0, 1.0};  ///< of a box
+  double radius_m = 0.5;        ///< of round ones
+  double length_m = 1.0;        ///< of a cylinder, and of a capsule without its ends
+  TriangleMesh mesh{};          ///< of kMesh
+};
+
+/// Wind on what is above the water: F = rho/2 c A |V| V by component, V the apparent wind at the
+/// centre in body axes.
+struct Windage {
+  double frontal_area_m2 = 0.0, lateral_area_m2 = 0.0;  ///< [0, 1e5]
+  double frontal_coefficient = 0.8;                     ///< [0, 5]
+  double lateral_coefficient = 1.0;                     ///< [0, 5]
+  Vec3d centre_m{};                                     ///< body frame
+};
+
+enum class BodyControl : std::uint8_t {
+  kIntegrated = 1,  ///< moved here
+  kByOwner = 2,     ///< its owner streams poses; here it floats, makes waves and is collided with
+};
+/// Waves that a body makes carry energy away. That is counted once.
+enum class Radiation : std::uint8_t {
+  kCoefficients = 1,  ///< by radiation_damping or radiation_memory; the grid must not act back
+  kGrid = 2,          ///< by the wake in the interaction layer; both are left out here
+};
+
+struct BodySpec {
+  std::string name;   ///< at most 64 bytes
+  std::string owner;  ///< who holds the lease; at most 64 bytes; may be empty
+  BodyControl control = BodyControl::kIntegrated;
+  Radiation radiation = Radiation::kCoefficients;
+  BodyShape shape;
+  double mass_kg = 1.0;
+  /// Body frame; none: of the uniform solid.
+  std::optional<Vec3d> centre_of_mass_m;
+  /// kg m² about the centre of mass; none: of the uniform solid.
+  std::optional<Mat3d> inertia_kg_m2;
+  /// Symmetric, about the centre of mass, body axes, at rest; none: EstimateAddedMass.
+  std::optional<Mat6> added_mass;
+  /// Linear damping by waves made, N per m/s and so on; none: 15 % of critical in heave and pitch,
+  /// 5 % in roll.
+  std::optional<Mat6> radiation_damping;
+  /// Linear damping by friction and eddies; none: 3 % of critical in heave, roll and pitch, and what
+  /// stops surge, sway and yaw in a minute.
+  std::optional<Mat6> viscous_damping;
+  /// Quadratic: force i = -sum_j q_ij sqrt|v_i v_j| v_j, which can only take energy.
+  Mat6 quadratic_damping{};
+  /// Heave radiation with memory in place of radiation_damping's heave; empty: none.
+  RadiationKernel heave_memory;
+  DragCoefficients drag;
+  Windage windage;
+  std::vector<ThrusterSpec> thrusters;
+  std::vector<RudderSpec> rudders;
+  double contact_friction = 0.4;     ///< [0, 2]
+  double contact_restitution = 0.1;  ///< [0, 1]
+};
+
+/// OK, or InvalidArgument naming field, value and limit. Matrices must be symmetric, damping must
+/// not give energy, mass with added mass must be positive. A body may be heavier than water, but
+/// not than osmium (25 000 kg/m³).
+absl::Status ValidateBodySpec(const BodySpec& spec);
+
+/// A validated spec with all that stepping needs; immutable, shared, safe from any thread.
+struct BodyModel {
+  BodySpec spec;
+  double density_kg_per_m3 = sea::kWaterDensityKgPerM3;
+  TriangleMesh mesh;
+  SolidProperties solid;
+  Vec3d centre_of_mass_m;  ///< body frame
+  WetHull hull;
+  Hydrostatics rest;
+  Mat6 rigid_mass{};  ///< mass and inertia about the centre of mass
+  Mat6 added_at_rest{}, added_submerged{};
+  Mat6 radiation_damping{}, viscous_damping{};
+  double memory_damping = 0.0;  ///< of heave_memory within one step, taken implicitly
+};
+absl::StatusOr<std::shared_ptr<const BodyModel>> MakeBodyModel(
+    BodySpec spec, double density_kg_per_m3 = sea::kWaterDensityKgPerM3);
+
+/// Closed mesh of a shape. Pre: valid.
+TriangleMesh MakeMesh(const BodyShape& shape);
+
+}  // namespace onesea::world
