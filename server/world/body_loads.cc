@@ -22,7 +22,8 @@ Mat3d Block(const Mat6& a, int row, int column) {
 }
 
 // A mass matrix fixed in a turning body, seen from axes that don't turn: with momentum
-// (P, L) = A v and its rate of change by the turn, d/dt (A v) + (0, v x P) = A dv/dt + 1/2 A' v + S v.
+// (P, L) = A v,
+//   d/dt (A v) + (0, v x P) = A dv/dt + 1/2 A' v + S v,  A' by the turn alone.
 // S is skew, and the half of A' goes into the mean mass of the step: neither makes energy.
 //   S = (0, T; -T', Q),  T = (A11 [v] - [P]) / 2,  Q = ([v] A12 + A21 [v] - [L]) / 2
 Mat6 TurnCoupling(const Mat6& mass, const Vec6& velocity) {

@@ -66,8 +66,8 @@ struct BodySpec {
   /// Linear damping by waves made, N per m/s and so on; none: 15 % of critical in heave and pitch,
   /// 5 % in roll.
   std::optional<Mat6> radiation_damping;
-  /// Linear damping by friction and eddies; none: 3 % of critical in heave, roll and pitch, and what
-  /// stops surge, sway and yaw in a minute.
+  /// Linear damping by friction and eddies; none: 3 % of critical in heave, roll and pitch, and
+  /// what stops surge, sway and yaw in a minute.
   std::optional<Mat6> viscous_damping;
   /// Quadratic: force i = -sum_j q_ij sqrt|v_i v_j| v_j, which can only take energy.
   Mat6 quadratic_damping{};

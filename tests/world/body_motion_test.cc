@@ -25,7 +25,8 @@ BodySpec Box(Vec3d size_m, double density) {
   return spec;
 }
 
-// Lamb's table of prolate spheroids (its third digit is worn), and the limits: sphere 1/2, disc 8/3 rho a³.
+// Lamb's table of prolate spheroids (its third digit is worn), and the limits:
+// sphere 1/2, disc 8/3 rho a³.
 TEST(AddedMass, EllipsoidsAreLambs) {
   const EllipsoidAddedMass sphere = OfEllipsoid({2, 2, 2});
   EXPECT_NEAR(sphere.along.x, 0.5, 1e-12);
