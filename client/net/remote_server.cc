@@ -14,6 +14,18 @@
 #include "onesea/v1/onesea.grpc.pb.h"
 
 namespace onesea::client {
+namespace {
+
+// A single call has no use for an answer that carries an error or has the wrong sizes.
+absl::StatusOr<wire::QueryAnswer> AnswerTo(const wire::QueryRequest& request,
+                                           const v1::QueryPointsResponse& response) {
+  ONESEA_ASSIGN_OR_RETURN(wire::QueryAnswer answer, wire::FromProto(response));
+  ONESEA_RETURN_IF_ERROR(answer.status);
+  ONESEA_RETURN_IF_ERROR(wire::CheckAnswers(request, answer));
+  return answer;
+}
+
+}  // namespace
 
 struct RemoteServer::Impl {
   std::shared_ptr<v1::OneSea::Stub> stub;
@@ -72,7 +84,7 @@ absl::StatusOr<wire::QueryAnswer> RemoteServer::QueryPoints(const wire::QueryReq
   wire::ToProto(request, &proto);
   v1::QueryPointsResponse response;
   ONESEA_RETURN_IF_ERROR(impl_->Call(&v1::OneSea::Stub::QueryPoints, proto, &response));
-  return wire::FromProto(response);
+  return AnswerTo(request, response);
 }
 
 absl::StatusOr<WeatherSpan> RemoteServer::ChangeWeather(const std::string& session,
@@ -123,8 +135,8 @@ absl::StatusOr<StepAnswer> RemoteServer::Step(const std::string& session,
   ONESEA_RETURN_IF_ERROR(
       impl_->Call(&v1::OneSea::Stub::StepSession, request, &response, options.timeout_ns));
   StepAnswer answer{.tick = response.tick(), .state_hash = response.state_hash(), .query = {}};
-  if (response.has_query()) {
-    ONESEA_ASSIGN_OR_RETURN(answer.query, wire::FromProto(response.query()));
+  if (options.query.has_value() && response.has_query()) {
+    ONESEA_ASSIGN_OR_RETURN(answer.query, AnswerTo(*options.query, response.query()));
   }
   return answer;
 }

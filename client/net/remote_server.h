@@ -57,8 +57,8 @@ class QueryStream {
 
   /// Blocks while the connection takes no more. Unavailable when the stream is over.
   absl::Status Send(const wire::QueryRequest& request);
-  /// The next answer, of whichever request; `QueryAnswer::status` is that request's. The stream's
-  /// own end is an error.
+  /// The next answer, of whichever request; `QueryAnswer::status` is that request's, and its sizes
+  /// are for wire::CheckAnswers() with it. The stream's own end is an error.
   absl::StatusOr<wire::QueryAnswer> Receive();
 
  private:

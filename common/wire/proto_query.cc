@@ -138,4 +138,26 @@ absl::StatusOr<QueryAnswer> FromProto(const v1::QueryPointsResponse& proto) {
   return answer;
 }
 
+absl::Status CheckAnswers(const QueryRequest& request, const QueryAnswer& answer) {
+  const std::size_t points = request.points_m.size(), depths = request.depth_m.size();
+  const bool with_normal = request.detail >= sea::QueryDetail::kNormal;
+  const bool with_velocity = request.detail >= sea::QueryDetail::kVelocity;
+  const struct {
+    const char* field;
+    std::size_t size, due;
+  } arrays[] = {
+      {"height_m", answer.height_m.size(), points},
+      {"normal", answer.normal.size(), with_normal ? 3 * points : 0},
+      {"velocity_m_per_s", answer.velocity_m_per_s.size(), with_velocity ? 3 * points : 0},
+      {"depth_velocity_m_per_s", answer.depth_velocity_m_per_s.size(), 3 * depths},
+      {"dynamic_pressure_pa", answer.dynamic_pressure_pa.size(), depths},
+  };
+  for (const auto& array : arrays) {
+    if (array.size == array.due) continue;
+    return absl::DataLossError(absl::StrCat("the server answered ", array.size, " values of ",
+                                            array.field, ", ", array.due, " are due"));
+  }
+  return absl::OkStatus();
+}
+
 }  // namespace onesea::wire

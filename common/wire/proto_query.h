@@ -16,4 +16,8 @@ absl::StatusOr<QueryRequest> FromProto(const v1::QueryPointsRequest& proto);
 /// For clients. An answer that carries an error comes back as OK with `QueryAnswer::status` set.
 absl::StatusOr<QueryAnswer> FromProto(const v1::QueryPointsResponse& proto);
 
+/// OK if `answer`, without an error of its own, has the sizes that `request` asks for; DataLoss
+/// naming the array that hasn't. For clients, before they index it by their points.
+absl::Status CheckAnswers(const QueryRequest& request, const QueryAnswer& answer);
+
 }  // namespace onesea::wire

@@ -102,5 +102,36 @@ TEST(QueryCodec, RefusesAnAnswerWhoseArraysLie) {
   EXPECT_FALSE(FromProto(proto).ok());
 }
 
+// An array may be consistent with the heights and yet not with what was asked.
+TEST(QueryCodec, AnAnswerOfOtherSizesThanAskedIsRefused) {
+  QueryRequest request;
+  request.points_m = {{0.0, 0.0}, {1.0, 2.0}};
+  request.detail = sea::QueryDetail::kNormal;
+  request.depth_m = {1.0, 2.0};
+  QueryAnswer whole;
+  whole.height_m.resize(2);
+  whole.normal.resize(6);
+  whole.depth_velocity_m_per_s.resize(6);
+  whole.dynamic_pressure_pa.resize(2);
+  EXPECT_TRUE(CheckAnswers(request, whole).ok()) << CheckAnswers(request, whole);
+  const struct {
+    const char* field;
+    void (*spoil)(QueryAnswer&);
+  } cases[] = {
+      {"height_m", [](QueryAnswer& a) { a.height_m.clear(); }},
+      {"normal", [](QueryAnswer& a) { a.normal.clear(); }},
+      {"velocity_m_per_s", [](QueryAnswer& a) { a.velocity_m_per_s.resize(6); }},
+      {"depth_velocity_m_per_s", [](QueryAnswer& a) { a.depth_velocity_m_per_s.pop_back(); }},
+      {"dynamic_pressure_pa", [](QueryAnswer& a) { a.dynamic_pressure_pa.resize(1); }},
+  };
+  for (const auto& bad : cases) {
+    QueryAnswer answer = whole;
+    bad.spoil(answer);
+    const absl::Status status = CheckAnswers(request, answer);
+    EXPECT_EQ(status.code(), absl::StatusCode::kDataLoss) << bad.field;
+    EXPECT_NE(status.message().find(bad.field), absl::string_view::npos) << status;
+  }
+}
+
 }  // namespace
 }  // namespace onesea::wire
