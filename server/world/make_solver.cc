@@ -1,5 +1,6 @@
 #include "absl/strings/str_cat.h"
 #include "server/world/shallow_water.h"
+#include "server/world/iwave.h"
 #include "server/world/wave_equation.h"
 #include "server/world/wave_solver.h"
 
@@ -7,6 +8,8 @@ namespace onesea::world {
 
 absl::StatusOr<std::unique_ptr<WaveSolver>> MakeSolver(const SolverSpec& spec) {
   switch (spec.kind) {
+    case SolverKind::kIwave:
+      return MakeIwave(spec);
     case SolverKind::kWaveEquation:
       return MakeWaveEquation(spec);
     case SolverKind::kShallowWater:

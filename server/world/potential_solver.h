@@ -18,7 +18,7 @@
 ///
 /// Border: over `edge_cells` both fields fall as exp(-σ t), σ growing as the square of the way in,
 ///   and the outermost cells drain as if the wave ran on (c η leaves through the rim), which
-///   swallows what is too long for the border. Borders 16 cells wide send back 2-8 % of a ring wave
+///   swallows what is too long for the border. Borders 16 cells wide send back 1-9 % of a ring wave
 ///   that is 10 to 20 cells long (tests/world/linear_solvers_test.cc), about 17 % of 40 cells.
 /// Damping: φ alone falls as exp(-damping t): no stiffness, and a flat offset stays.
 /// Solids: a cell of share s approaches its rest height as (1-s)^(t / kSolidS), whatever the step,

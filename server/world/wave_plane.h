@@ -2,6 +2,7 @@
 
 #include <cstddef>
 
+#include "common/base/limits.h"
 #include "common/sea/aligned.h"
 
 /// A grid of floats with a margin of zeros, so that stencils need no special case at the rim.
@@ -10,6 +11,8 @@ namespace onesea::world {
 struct WavePlane {
   static constexpr int kMarginRows = 4;      ///< below and above
   static constexpr int kMarginColumns = 16;  ///< left; right twice that and what fills a cache line
+
+  static constexpr int kColumnsMax = kRegionSideMax;
 
   WavePlane() = default;
   WavePlane(int columns_in, int rows_in)

@@ -1,0 +1,168 @@
+#include "server/world/iwave.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "common/base/check.h"
+#include "common/base/real_math.h"
+#include "common/sea/constants.h"
+#include "server/world/iwave_operator.h"
+#include "server/world/potential_solver.h"
+
+namespace onesea::world {
+namespace {
+
+double StepNumber(const SolverSpec& spec, double substep_s) {
+  return sea::kGravity * substep_s * substep_s / spec.cells.cell_m;
+}
+
+// Speed of waves twice as long as the border: shorter ones fade in it, longer ones reach its rim.
+double BorderSpeed(const SolverSpec& spec, double depth_m) {
+  const double k = sea::kPi / (std::max(spec.edge_cells, 1) * spec.cells.cell_m);
+  const double tanh = std::isinf(depth_m) ? 1.0 : real::Tanh(k * depth_m);
+  return std::sqrt(sea::kGravity * tanh / k);
+}
+
+// One depth, borders all round: T commutes with the gradient, so one application of it serves both
+// directions.
+class FlatIwave final : public PotentialSolver {
+ public:
+  FlatIwave(const SolverSpec& spec, int substeps, double depth_m)
+      : PotentialSolver(spec, substeps, BorderSpeed(spec, depth_m)),
+        integral_(spec.cells.columns, spec.cells.rows,
+                  DesignIwave(depth_m / spec.cells.cell_m, StepNumber(spec, SubstepS()),
+                              IwaveLevelsFor(spec.cells.columns, spec.cells.rows))),
+        psi_(spec.cells.columns, spec.cells.rows) {}
+
+ private:
+  void Advance(const GridPass& grid, const PotentialPass& potential) override {
+    AdvancePotential(grid, potential);
+    integral_.Apply(*potential.phi, psi_);
+    AdvanceHeight(grid,
+                  {.psi = &psi_, .uniform = static_cast<float>(SubstepS() / spec().cells.cell_m)});
+  }
+
+  void Outflow(std::span<float> m_per_s) const override {
+    const int columns = spec().cells.columns, rows = spec().cells.rows;
+    const auto scale = static_cast<float>(1.0 / spec().cells.cell_m);
+    for (int row = 0; row < rows; ++row) {
+      const float* here = psi_.Row(row);
+      const float* south = psi_.Row(std::max(row - 1, 0));
+      const float* north = psi_.Row(std::min(row + 1, rows - 1));
+      for (int column = 0; column < columns; ++column) {
+        const float sum = here[std::max(column - 1, 0)] + here[std::min(column + 1, columns - 1)] +
+                          south[column] + north[column];
+        m_per_s[static_cast<std::size_t>(row) * columns + column] =
+            scale * (4.0f * here[column] - sum);
+      }
+    }
+  }
+
+  FlatIntegral integral_;
+  WavePlane psi_;  // ∫φ dz [m²/s cells]
+};
+
+FacePlanes MakeFaces(const sea::CellRect& cells) {
+  return {WavePlane(cells.columns, cells.rows), WavePlane(cells.columns, cells.rows)};
+}
+
+// Flow through faces, each with the depth at its middle. Also for a closed basin, whose walls the
+// convolution over a flat bottom would not see.
+class FacesIwave final : public PotentialSolver {
+ public:
+  FacesIwave(const SolverSpec& spec, int substeps, double depth_m)
+      : PotentialSolver(spec, substeps, BorderSpeed(spec, depth_m)),
+        open_(MakeFaces(spec.cells)),
+        difference_(MakeFaces(spec.cells)),
+        flow_(MakeFaces(spec.cells)),
+        integral_x_(MakeIntegral(0.5, 0.0)),
+        integral_y_(MakeIntegral(0.0, 0.5)) {
+    for (int row = 0; row < spec.cells.rows; ++row) {
+      for (int column = 0; column < spec.cells.columns; ++column) {
+        open_.x.Row(row)[column] = Open(column, row, 0.5, 0.0) ? 1.0f : 0.0f;
+        open_.y.Row(row)[column] = Open(column, row, 0.0, 0.5) ? 1.0f : 0.0f;
+      }
+    }
+  }
+
+ private:
+  bool Open(int column, int row, double to_east, double to_north) const {
+    const int east = column + (to_east > 0.0), north = row + (to_north > 0.0);
+    return east < spec().cells.columns && north < spec().cells.rows && Wet(column, row) &&
+           Wet(east, north);
+  }
+
+  TerrainIntegral MakeIntegral(double to_east, double to_north) const {
+    return TerrainIntegral(
+        spec().cells.columns, spec().cells.rows,
+        [&](int column, int row) {
+          // Faces of the rim carry nothing, but their depth weighs in the coarser levels.
+          const bool rim = column + (to_east > 0.0) >= spec().cells.columns ||
+                           row + (to_north > 0.0) >= spec().cells.rows;
+          if (!rim && !Open(column, row, to_east, to_north)) return 0.0;
+          if (spec().terrain == nullptr && spec().depth_m == 0.0) return kIwaveDeepCells;
+          return DepthAt(column + to_east, row + to_north) / spec().cells.cell_m;
+        },
+        StepNumber(spec(), SubstepS()));
+  }
+
+  void Advance(const GridPass& grid, const PotentialPass& potential) override {
+    AdvancePotential(grid, potential);
+    FaceDifferences(*potential.phi, open_, difference_);
+    integral_x_.Apply(difference_.x, flow_.x);
+    integral_y_.Apply(difference_.y, flow_.y);
+    AdvanceHeightByFlow(grid, flow_, open_, static_cast<float>(SubstepS() / spec().cells.cell_m));
+  }
+
+  void Outflow(std::span<float> m_per_s) const override {
+    const int columns = spec().cells.columns, rows = spec().cells.rows;
+    const auto scale = static_cast<float>(1.0 / spec().cells.cell_m);
+    for (int row = 0; row < rows; ++row) {
+      for (int column = 0; column < columns; ++column) {
+        const auto through = [&](const WavePlane& q, const WavePlane& open, int x, int y) {
+          return q.Row(y)[x] * open.Row(y)[x];  // zero in the margin
+        };
+        m_per_s[static_cast<std::size_t>(row) * columns + column] =
+            scale *
+            (through(flow_.x, open_.x, column - 1, row) - through(flow_.x, open_.x, column, row) +
+             through(flow_.y, open_.y, column, row - 1) - through(flow_.y, open_.y, column, row));
+      }
+    }
+  }
+
+  FacePlanes open_;        // 1, or 0 where land or the rim closes the face
+  FacePlanes difference_;  // of φ
+  FacePlanes flow_;        // ∫u dz through the face, in cells
+  TerrainIntegral integral_x_, integral_y_;
+};
+
+}  // namespace
+
+absl::StatusOr<std::unique_ptr<WaveSolver>> MakeIwave(const SolverSpec& spec) {
+  ONESEA_RETURN_IF_ERROR(ValidateSolverSpec(spec));
+  double depth_m = spec.depth_m > 0.0 ? spec.depth_m : std::numeric_limits<double>::infinity();
+  if (spec.terrain != nullptr) {
+    depth_m = 0.0;
+    for (int row = 0; row < spec.cells.rows; ++row) {
+      for (int column = 0; column < spec.cells.columns; ++column) {
+        depth_m = std::max(depth_m, -spec.terrain->ElevationAt(spec.cells.PlaceOf(
+                                        spec.cells.west + column, spec.cells.south + row)));
+      }
+    }
+    if (!(depth_m > 0.0)) {
+      return absl::InvalidArgumentError("region.terrain: no water in the region");
+    }
+  }
+  if (depth_m > kIwaveDeepCells * spec.cells.cell_m) {
+    depth_m = std::numeric_limits<double>::infinity();
+  }
+  ONESEA_ASSIGN_OR_RETURN(
+      const int substeps,
+      SubstepsFor(spec, std::sqrt(sea::kGravity * kIwaveSymbolMax / spec.cells.cell_m)));
+  if (spec.terrain != nullptr || spec.edge_cells == 0)
+    return std::make_unique<FacesIwave>(spec, substeps, depth_m);
+  return std::make_unique<FlatIwave>(spec, substeps, depth_m);
+}
+
+}  // namespace onesea::world
