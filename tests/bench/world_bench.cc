@@ -1,0 +1,89 @@
+// Steps of the interaction layer's solvers on 256 x 256 cells, beside the loops that are commonly
+// published for them, in the same run.
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <vector>
+
+#include "common/base/check.h"
+#include "server/world/wave_solver.h"
+
+namespace onesea::world {
+namespace {
+
+constexpr int kSide = 256;
+
+std::shared_ptr<const sea::Terrain> Bay() {
+  auto terrain = std::make_shared<sea::Terrain>();
+  terrain->cell_m = 2.0;
+  terrain->columns = terrain->rows = 65;
+  for (int n = 0; n < 65 * 65; ++n) {
+    const double x = n % 65 / 64.0, y = n / 65 / 64.0;
+    terrain->elevation_m.push_back(
+        static_cast<float>(-12.0 + 14.0 * x * x + 1.5 * std::sin(6.0 * y)));
+  }
+  return terrain;
+}
+
+void Step(benchmark::State& state, SolverKind kind, bool over_terrain) {
+  SolverSpec spec;
+  spec.kind = kind;
+  spec.cells = {.columns = kSide, .rows = kSide, .cell_m = 0.5};
+  spec.depth_m = kind == SolverKind::kIwave ? 0.0 : 3.0;
+  if (over_terrain) spec.terrain = Bay();
+  auto solver = MakeSolver(spec);
+  ONESEA_CHECK(solver.ok()) << solver.status();
+  std::vector<float> source(spec.cells.cells());
+  for (std::size_t n = 0; n < source.size(); ++n) {
+    source[n] = static_cast<float>(0.1 * std::sin(0.37 * static_cast<double>(n)));
+  }
+  (*solver)->Step({.source_m = source});
+  for (auto _ : state) (*solver)->Step({});
+  benchmark::DoNotOptimize((*solver)->height_m().data());
+}
+BENCHMARK_CAPTURE(Step, wave_equation, SolverKind::kWaveEquation, false)
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(Step, wave_equation_over_terrain, SolverKind::kWaveEquation, true)
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(Step, iwave, SolverKind::kIwave, false)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(Step, iwave_over_terrain, SolverKind::kIwave, true)
+    ->Unit(benchmark::kMicrosecond);
+
+// The published iWave loop: 169 taps a cell, row by row, with a border that is left out; scalar, as
+// it was written.
+#if defined(__GNUC__) && !defined(__clang__)
+__attribute__((optimize("no-tree-vectorize")))
+#endif
+void PublishedIwave(benchmark::State& state) {
+  constexpr int kR = 6;
+  std::vector<float> kernel(13 * 13), height(kSide * kSide), before(height), derivative(height);
+  for (std::size_t n = 0; n < kernel.size(); ++n) kernel[n] = 1.0f / static_cast<float>(n + 1);
+  for (std::size_t n = 0; n < height.size(); ++n) height[n] = 0.001f * static_cast<float>(n % 97);
+  const float step = 1.0f / 60.0f, damping = 0.3f, gravity = 9.8f * step * step * 0.01f;
+  for (auto _ : state) {
+    for (int y = kR; y < kSide - kR; ++y) {
+      for (int x = kR; x < kSide - kR; ++x) {
+        float sum = 0.0f;
+        for (int j = -kR; j <= kR; ++j) {
+          for (int i = -kR; i <= kR; ++i) {
+            sum += kernel[static_cast<std::size_t>((j + kR) * 13 + i + kR)] *
+                   height[static_cast<std::size_t>((y + j) * kSide + x + i)];
+          }
+        }
+        derivative[static_cast<std::size_t>(y * kSide + x)] = sum;
+      }
+    }
+    for (std::size_t n = 0; n < height.size(); ++n) {
+      const float now = height[n];
+      height[n] = (now * (2.0f - damping * step) - before[n] - gravity * derivative[n]) /
+                  (1.0f + damping * step);
+      before[n] = now;
+    }
+    benchmark::DoNotOptimize(height.data());
+    benchmark::ClobberMemory();
+  }
+}
+BENCHMARK(PublishedIwave)->Unit(benchmark::kMicrosecond);
+
+}  // namespace
+}  // namespace onesea::world
