@@ -1,6 +1,6 @@
 #include "absl/strings/str_cat.h"
-#include "server/world/shallow_water.h"
 #include "server/world/iwave.h"
+#include "server/world/shallow_water.h"
 #include "server/world/wave_equation.h"
 #include "server/world/wave_solver.h"
 
@@ -14,8 +14,6 @@ absl::StatusOr<std::unique_ptr<WaveSolver>> MakeSolver(const SolverSpec& spec) {
       return MakeWaveEquation(spec);
     case SolverKind::kShallowWater:
       return MakeShallowWater(spec);
-    case SolverKind::kIwave:
-      break;
   }
   return absl::InvalidArgumentError(
       absl::StrCat("region.kind = ", static_cast<int>(spec.kind), " is not a solver"));
