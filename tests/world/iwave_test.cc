@@ -32,8 +32,8 @@ class ZeroCounter {
   int n_ = 0, falls_ = 0;
 };
 
-// Oracle: ω² = g k tanh(kd), time step included: a standing wave over the whole region swings in its
-// middle as water does until the region's ends are heard there.
+// Oracle: ω² = g k tanh(kd), time step included: a standing wave over the whole region swings in
+// its middle as water does until the region's ends are heard there.
 TEST(Iwave, SwingsAtTheFrequencyOfWater) {
   for (const double cell_m : {0.1, 0.5, 4.0}) {
     for (const double depth_cells : {0.5, 3.0, 0.0}) {
@@ -102,8 +102,8 @@ TEST(Iwave, WavesShoalByLinearTheory) {
     spec.step_s = 1.0 / 15.0;
     spec.terrain = SlopedBottom(slope, 384.0);
     const auto solver = Solver(spec);
-    // A paddle of pressure near the west border makes a train of 40 s, a beam with a Gaussian profile
-    // of 100 m: it fades by 0.6 % on its way, and the side borders don't matter.
+    // A paddle of pressure near the west border makes a train of 40 s, a beam with a Gaussian
+    // profile of 100 m: it fades by 0.6 % on its way, and the side borders don't matter.
     std::vector<float> head(spec.cells.cells()), deep, shallow;
     const int steps = static_cast<int>(132.0 / spec.step_s);
     for (int n = 0; n < steps; ++n) {
