@@ -45,7 +45,7 @@ struct IwaveKernels {
 };
 
 /// Kernels for water `depth_cells` deep (> 0, infinity allowed) and τ = g step²/cell; as many
-/// levels as the depth needs, at most `levels_max`. The same bits on every machine. Cost: about 1 ms.
+/// levels as the depth needs, at most `levels_max`. The same bits on every machine. Cost: 1 ms.
 IwaveKernels DesignIwave(double depth_cells, double step_number, int levels_max);
 
 /// T's symbol, without the images, at (qx, qy) [rad/cell].
