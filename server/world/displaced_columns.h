@@ -1,0 +1,36 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "common/sea/cell_rect.h"
+#include "server/world/hull.h"
+#include "server/world/rigid_math.h"
+
+/// The water that a hull displaces, on the cells of a region.
+namespace onesea::world {
+
+/// Heights of a surface around a body, bilinear between samples and flat beyond them.
+struct HeightPatch {
+  double west_m = 0.0, south_m = 0.0, cell_m = 1.0;
+  int columns = 0, rows = 0;      ///< both 0: flat, at `flat_m`
+  std::vector<float> height_m{};  ///< (rows x columns) row-major from the south-west
+  double flat_m = 0.0;
+
+  double At(double x, double y) const;
+};
+
+/// Adds to `head_m` (one per cell of `cells`) the thickness of the part of the hull below
+/// `surface`, averaged over each cell: the pressure head under which still water would make room
+/// for the hull. The sum over all cells times the area of one is the displaced volume, whatever the
+/// cell size and wherever the hull lies, so a gliding hull makes no waves of its own; what lies
+/// outside `cells` is left out.
+///
+/// Each wetted piece of a face is a column of water up to the surface, counted down for faces that
+/// look up, and spread over the nine cells around its middle; pieces longer than most of a cell are
+/// split.
+void AddDisplacedColumns(const TriangleMesh& mesh, Vec3d centre_of_mass_m, const Pose& pose,
+                         const HeightPatch& surface, const sea::CellRect& cells,
+                         std::span<float> head_m);
+
+}  // namespace onesea::world
