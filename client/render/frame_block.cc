@@ -147,7 +147,10 @@ void FillWaves(const RenderFrame& frame, const std::vector<SlopeStats>& stats, F
         TileMap(eye, planes.length_m, planes.rotation_rad, planes.length_m / planes.grid_size);
     block.cascade_turn[c] =
         Pack(std::cos(planes.rotation_rad), std::sin(planes.rotation_rad), 0, 0);
-    height_variance += stats[c].height_variance_m2;
+    const SlopeStats& s = stats[c];
+    const double trace = std::max(s.xx + s.yy, 1e-12);
+    block.cascade_share[c] = Pack(s.xx / trace, s.yy / trace, s.xy / trace, 0);
+    height_variance += s.height_variance_m2;
   }
   const std::size_t regular =
       std::min<std::size_t>(frame.regular_waves.size(), kRenderRegularWavesMax);

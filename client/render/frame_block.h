@@ -37,6 +37,7 @@ struct FrameBlock {
   glm::vec4 counts;           // x: cascades, y: regular waves, z: texels per side
   glm::vec4 cascade_map[kRenderCascadesMax];   // xy: offset [turns], z: 1/length, w: log2 texel [m]
   glm::vec4 cascade_turn[kRenderCascadesMax];  // xy: cos, sin of the rotation
+  glm::vec4 cascade_share[kRenderCascadesMax];  // xyz: xx, yy, xy of its slope variance, over their trace
   glm::vec4 regular[kRenderRegularWavesMax];   // kx, ky, amplitude, phase at the eye
 };
 

@@ -13,8 +13,7 @@ CascadePlanes PlanesOf(const sea::CascadeFields& fields, const sea::Cascade& cas
           fields.Plane(Field::kSlopeX),
           fields.Plane(Field::kSlopeY),
           fields.Plane(Field::kJacobianXX),
-          fields.Plane(Field::kJacobianYY),
-          fields.Plane(Field::kJacobianXY)};
+          fields.Plane(Field::kJacobianYY)};
 }
 
 }  // namespace onesea::render

@@ -42,7 +42,7 @@ struct CascadePlanes {
   double length_m = 0.0;
   double rotation_rad = 0.0;
   std::span<const float> height, displacement_x, displacement_y, slope_x, slope_y;
-  std::span<const float> jacobian_xx, jacobian_yy, jacobian_xy;
+  std::span<const float> jacobian_xx, jacobian_yy;
 };
 
 /// eta = amplitude cos(k·x + phase): an explicit wave, its phase already at the picture's time.

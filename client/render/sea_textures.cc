@@ -7,7 +7,7 @@
 namespace onesea::render {
 namespace {
 
-void AllocateArray(const Texture& texture, int grid_size, int layers, GLint minify) {
+void AllocateArray(const Texture& texture, int grid_size, int layers) {
   BindTexture(0, GL_TEXTURE_2D_ARRAY, texture);
   int level = 0;
   for (int side = grid_size; side >= 1; side /= 2, ++level) {
@@ -15,7 +15,7 @@ void AllocateArray(const Texture& texture, int grid_size, int layers, GLint mini
                  GL_HALF_FLOAT, nullptr);
   }
   glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAX_LEVEL, level - 1);
-  SetSampling(GL_TEXTURE_2D_ARRAY, minify, GL_LINEAR, GL_REPEAT);
+  SetSampling(GL_TEXTURE_2D_ARRAY, GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR, GL_REPEAT);
 }
 
 void UploadLayer(const Texture& texture, int layer, int grid_size, const float* texels) {
@@ -33,10 +33,8 @@ void SeaTextures::Allocate(int grid_size, int layers) {
   grid_size_ = grid_size;
   layers_ = layers;
   texels_.resize(static_cast<std::size_t>(grid_size) * static_cast<std::size_t>(grid_size) * 4);
-  AllocateArray(displacement_, grid_size, layers, GL_LINEAR_MIPMAP_LINEAR);
-  AllocateArray(slope_, grid_size, layers, GL_LINEAR_MIPMAP_LINEAR);
-  // Roughness may step a little from level to level: half the fetches, and nobody sees it.
-  AllocateArray(moment_, grid_size, layers, GL_LINEAR_MIPMAP_NEAREST);
+  AllocateArray(displacement_, grid_size, layers);
+  AllocateArray(slope_, grid_size, layers);
 }
 
 void SeaTextures::Upload(const std::vector<CascadePlanes>& cascades) {
@@ -56,26 +54,18 @@ void SeaTextures::Upload(const std::vector<CascadePlanes>& cascades) {
     UploadLayer(displacement_, layer, grid_size_, texels_.data());
     out = texels_.data();
     for (std::size_t n = 0; n < count; ++n, out += 4) {
-      out[0] = planes.slope_x[n];
-      out[1] = planes.slope_y[n];
-      out[2] = planes.jacobian_xx[n];
-      out[3] = planes.jacobian_yy[n];
+      const float sx = planes.slope_x[n], sy = planes.slope_y[n];
+      out[0] = sx;
+      out[1] = sy;
+      out[2] = planes.jacobian_xx[n] + planes.jacobian_yy[n];
+      out[3] = sx * sx + sy * sy;
     }
     UploadLayer(slope_, layer, grid_size_, texels_.data());
-    out = texels_.data();
-    for (std::size_t n = 0; n < count; ++n, out += 4) {
-      const float sx = planes.slope_x[n], sy = planes.slope_y[n];
-      out[0] = planes.jacobian_xy[n];
-      out[1] = sx * sx;
-      out[2] = sy * sy;
-      out[3] = sx * sy;
-    }
-    UploadLayer(moment_, layer, grid_size_, texels_.data());
   }
 }
 
 void SeaTextures::MakeMips() {
-  for (const Texture* texture : {&displacement_, &slope_, &moment_}) {
+  for (const Texture* texture : {&displacement_, &slope_}) {
     BindTexture(0, GL_TEXTURE_2D_ARRAY, *texture);
     glGenerateMipmap(GL_TEXTURE_2D_ARRAY);
   }

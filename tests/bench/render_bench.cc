@@ -22,6 +22,7 @@
 #include "tests/render/test_sea.h"
 
 ABSL_FLAG(int, frames, 12, "Pictures per size; the first is left out");
+ABSL_FLAG(int, samples, 4, "Samples of the geometry: 1 or 4");
 
 namespace onesea::render {
 namespace {
@@ -87,6 +88,7 @@ int Main(int frames) {
   }
   TestSea sea(2.1, 7.5, 2.6);
   RenderFrame frame;
+  frame.quality.samples = absl::GetFlag(FLAGS_samples);
   frame.camera.position_m = {0.0, 0.0, 4.0};
   frame.camera.pitch_rad = -0.05;
   for (const auto& [width, height] : {std::pair{640, 360}, std::pair{1280, 720}}) {

@@ -86,7 +86,6 @@ void SurfacePass::Draw(const VertexArray& empty, const ColorTarget& scene,
   } kInputs[] = {
       {"surface_map", geometry.target(), geometry.surface()},
       {"slope_map", GL_TEXTURE_2D_ARRAY, sea.slope()},
-      {"moment_map", GL_TEXTURE_2D_ARRAY, sea.moment()},
       {"ripple_slope_map", GL_TEXTURE_2D, ripples.slope()},
       {"foam_map", GL_TEXTURE_2D, foam_},
       {"foam_window_map", GL_TEXTURE_2D, foam_window_},

@@ -25,6 +25,7 @@ layout(std140) uniform Frame {
   vec4 counts;
   vec4 cascade_map[8];
   vec4 cascade_turn[8];
+  vec4 cascade_share[8];
   vec4 regular[32];
 };
 

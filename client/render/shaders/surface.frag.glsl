@@ -3,7 +3,6 @@
 // Slopes come from the undisplaced point, filtered to the pixel's footprint; the variance that
 // the filter removed, plus that of waves which no texture holds, is the pixel's roughness.
 uniform sampler2DArray slope_map;
-uniform sampler2DArray moment_map;
 uniform sampler2D ripple_slope_map;
 uniform sampler2D foam_window_map;
 uniform sampler2D foam_map;
@@ -18,37 +17,36 @@ out vec4 radiance;
 
 struct Waves {
   vec2 slope;      // mean over the footprint, with respect to the undisplaced point
-  vec3 jacobian;   // J_xx, J_yy, J_xy: mean over the footprint
+  float squeeze;   // trace of J: mean over the footprint
   vec3 variance;   // xx, yy, xy: of the slopes within the footprint
   float folding;   // variance of J within the footprint, of the cascades alone
 };
 
 vec3 normal_of(Waves w) {
-  float xx = 1.0 + w.jacobian.x, yy = 1.0 + w.jacobian.y, xy = w.jacobian.z;
-  vec3 n = vec3(xy * w.slope.y - w.slope.x * yy, xy * w.slope.x - w.slope.y * xx,
-                max(xx * yy - xy * xy, 0.12));
-  return normalize(n);
+  return normalize(vec3(-w.slope, max(1.0 + w.squeeze, 0.12)));
 }
 
 // Straight code on purpose: software rasterisers run both sides of every branch, and a loop that
 // might end early costs them more than what it skips. CASCADES is a constant for the same reason.
 Waves gather(vec2 xy, float distance, float stretch) {
-  Waves w = Waves(vec2(0.0), vec3(0.0), vec3(0.0), 0.0);
+  Waves w = Waves(vec2(0.0), 0.0, vec3(0.0), 0.0);
   // Footprint: the pixel, longer along the view than across, filtered by one round kernel between
   // the two. Beyond some stretch only the faces that look at the eye are seen, and they are not long.
   stretch = min(stretch, 14.0);
   float footprint = log2(distance * ray_forward.w) + 0.75 * log2(stretch);
+  float lost_sum = 0.0;
   for (int c = 0; c < CASCADES; ++c) {
     float lod = max(footprint - cascade_map[c].w - 0.3, 0.0);
     vec3 at = vec3(tile_coordinate(c, xy), float(c));
     vec4 slope = textureLod(slope_map, at, lod);
-    vec4 moment = textureLod(moment_map, at, lod);
     w.slope += slope.xy;
-    w.jacobian += vec3(slope.zw, moment.x);
-    w.variance += max(moment.yzw - vec3(slope.xy * slope.xy, slope.x * slope.y), vec3(0.0, 0.0, -1.0));
+    w.squeeze += slope.z;
+    float lost = max(slope.w - dot(slope.xy, slope.xy), 0.0);
+    lost_sum += lost;
+    w.variance += lost * cascade_share[c].xyz;
   }
   // A wave of slope s changes J by choppiness times s.
-  w.folding = water_leaving.w * water_leaving.w * (w.variance.x + w.variance.y);
+  w.folding = water_leaving.w * water_leaving.w * lost_sum;
   w.variance += fine_variance.xyz;
 #if RIPPLES
   float ripple_lod = max(footprint + 0.15 * log2(stretch) - ripple_map.w, 0.0);
@@ -67,10 +65,8 @@ Waves gather(vec2 xy, float distance, float stretch) {
   for (int n = 0; n < regulars; ++n) {
     vec4 wave = regular[n];
     float phase = dot(wave.xy, xy) + wave.w;
-    vec2 unit = normalize(wave.xy);
     w.slope -= wave.xy * wave.z * sin(phase);
-    float fold = -water_leaving.w * wave.z * length(wave.xy) * cos(phase);
-    w.jacobian += fold * vec3(unit * unit, unit.x * unit.y);
+    w.squeeze -= water_leaving.w * wave.z * length(wave.xy) * cos(phase);
   }
 #endif
   return w;
@@ -162,7 +158,7 @@ vec3 shade_above(vec2 xy, float distance, float stretch, vec3 direction) {
 
   // Light out of the water; crests that the sun shines through.
   vec3 body = water_leaving.rgb;
-  float fold = (1.0 + w.jacobian.x) * (1.0 + w.jacobian.y) - w.jacobian.z * w.jacobian.z;
+  float fold = 1.0 + w.squeeze;
   float pinch = clamp(1.0 - fold, 0.0, 1.0);
   float back = max(dot(sun_direction.xyz, direction), 0.0);
   back *= back;
