@@ -16,7 +16,7 @@ struct ViewerOptions {
   double seconds = 5.0;             ///< headless: of sea time
   std::string out = "frames";       ///< headless and P: folder of the pictures
   int grid_size = 256;              ///< N of each cascade
-  int samples = 4;                  ///< of the surface's edges: 1 or 4
+  int samples = 0;                  ///< of the surface's edges: 1, 4 or 0, as render::Quality
   CameraControl camera;
   ViewSettings settings;
 };

@@ -33,7 +33,8 @@ ABSL_FLAG(double, clouds, 0.3, "Share of the sky that is covered, [0, 1]");
 ABSL_FLAG(double, visibility_km, 35.0, "How far one sees, [0.5, 200]");
 ABSL_FLAG(std::string, water, "II", "Jerlov water type: I, IB, II, III, 1C, 3C or 5C");
 ABSL_FLAG(int, grid, 256, "N of the N x N fields of each cascade: 64, 128, 256, 512 or 1024");
-ABSL_FLAG(int, samples, 4, "Samples per pixel on edges: 4, or 1 to draw faster");
+ABSL_FLAG(int, samples, 0,
+          "Samples per pixel on edges: 4, or 1 and smoothed afterwards; 0 chooses by the driver");
 ABSL_FLAG(bool, panel, false, "Headless: draw the panel into the pictures too");
 
 namespace onesea::client {
@@ -109,9 +110,9 @@ absl::StatusOr<ViewerOptions> ReadOptions() {
     return absl::InvalidArgumentError(
         absl::StrCat("--grid=", n, ": must be 64, 128, 256, 512 or 1024"));
   }
-  if (options.samples != 1 && options.samples != 4) {
+  if (options.samples != 0 && options.samples != 1 && options.samples != 4) {
     return absl::InvalidArgumentError(
-        absl::StrCat("--samples=", options.samples, ": must be 1 or 4"));
+        absl::StrCat("--samples=", options.samples, ": must be 0, 1 or 4"));
   }
   const double heading = absl::GetFlag(FLAGS_heading);
   ONESEA_RETURN_IF_ERROR(InRange("heading", heading, -360.0, 360.0));

@@ -61,7 +61,8 @@ struct FoamCells {
 };
 
 struct Quality {
-  int samples = 4;                 ///< of the geometry pass: 1 or 4
+  int samples = 0;  ///< of the geometry pass: 4, 1 with edges smoothed afterwards, or 0 for
+                    ///< 1 on a software renderer and 4 on a graphics card
   double pixels_per_column = 9.0;  ///< grid density, in [2, 64]; less is finer and dearer
   bool ripples = true;             ///< cosmetic waves shorter than the last cascade
   bool bloom = true;

@@ -10,6 +10,7 @@
 #include "client/render/passes/classify.h"
 #include "client/render/passes/ripples.h"
 #include "client/render/passes/sky.h"
+#include "client/render/passes/smooth_steps.h"
 #include "client/render/passes/surface.h"
 #include "client/render/passes/surface_grid.h"
 #include "client/render/passes/tone_map.h"
@@ -19,13 +20,28 @@
 
 namespace onesea::render {
 
+namespace {
+
+// Mesa's and Chromium's rasterisers without a graphics card.
+bool IsSoftware() {
+  const std::string name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  for (const char* known : {"llvmpipe", "softpipe", "SwiftShader"}) {
+    if (name.find(known) != std::string::npos) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
 struct Renderer::Impl {
-  Impl(RipplePass r, SurfaceGridPass g, ClassifyPass c, SkyPass s, SurfacePass w, ToneMapPass t)
+  Impl(RipplePass r, SurfaceGridPass g, ClassifyPass c, SkyPass s, SurfacePass w, SmoothStepsPass e,
+       ToneMapPass t)
       : ripples(std::move(r)),
         grid(std::move(g)),
         classify(std::move(c)),
         sky(std::move(s)),
         surface(std::move(w)),
+        smooth_steps(std::move(e)),
         tone(std::move(t)) {}
 
   // The light of the last picture, kept until sun, clouds or haze change.
@@ -45,6 +61,7 @@ struct Renderer::Impl {
   ClassifyPass classify;
   SkyPass sky;
   SurfacePass surface;
+  SmoothStepsPass smooth_steps;
   ToneMapPass tone;
   SeaTextures sea;
   ColorTarget scene;
@@ -53,6 +70,7 @@ struct Renderer::Impl {
   std::optional<Atmosphere> atmosphere;
   std::optional<LightKey> light_key;
   SkyLight light;
+  const int samples_default = IsSoftware() ? 1 : 4;
   bool measure = false;
   std::vector<PassTime> pass_times;
 };
@@ -96,10 +114,11 @@ absl::StatusOr<std::unique_ptr<Renderer>> Renderer::Create() {
   ONESEA_ASSIGN_OR_RETURN(ClassifyPass classify, ClassifyPass::Create());
   ONESEA_ASSIGN_OR_RETURN(SkyPass sky, SkyPass::Create());
   ONESEA_ASSIGN_OR_RETURN(SurfacePass surface, SurfacePass::Create());
+  ONESEA_ASSIGN_OR_RETURN(SmoothStepsPass smooth_steps, SmoothStepsPass::Create());
   ONESEA_ASSIGN_OR_RETURN(ToneMapPass tone, ToneMapPass::Create());
   return std::unique_ptr<Renderer>(
       new Renderer(std::make_unique<Impl>(std::move(ripples), std::move(grid), std::move(classify),
-                                          std::move(sky), std::move(surface), std::move(tone))));
+                                          std::move(sky), std::move(surface), std::move(smooth_steps), std::move(tone))));
 }
 
 Renderer::Renderer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -140,9 +159,10 @@ void Renderer::Draw(const RenderFrame& frame, int width, int height, unsigned fr
   const FrameBlock block = MakeFrameBlock(frame, r.light, grid, stats, r.ripples.stats(),
                                           RipplePass::kLengthM, width, height);
   r.UploadBlock(block);
+  const int samples = frame.quality.samples == 0 ? r.samples_default : frame.quality.samples;
   r.scene.Resize(width, height, GL_RGBA16F);
   r.Pass("small sky", [&] { r.sky.DrawSmall(r.empty, block, width, height); });
-  r.Pass("geometry", [&] { r.grid.Draw(grid, r.sea, width, height, frame.quality.samples); });
+  r.Pass("geometry", [&] { r.grid.Draw(grid, r.sea, width, height, samples); });
   r.Pass("classify", [&] { r.classify.Draw(r.empty, r.scene, r.grid); });
   r.Pass("sky", [&] { r.sky.Place(r.empty, r.scene); });
   r.Pass("surface", [&] {
@@ -153,6 +173,9 @@ void Renderer::Draw(const RenderFrame& frame, int width, int height, unsigned fr
     variant.cascades = static_cast<int>(frame.cascades.size());
     r.surface.Draw(r.empty, r.scene, r.grid, r.sea, r.ripples, r.sky, variant);
   });
+  if (samples == 1) {
+    r.Pass("steps", [&] { r.smooth_steps.Draw(r.empty, r.scene, r.grid, r.classify); });
+  }
   r.Pass("tone map", [&] { r.tone.Draw(r.empty, r.scene, framebuffer, frame.quality.bloom); });
 }
 

@@ -22,7 +22,7 @@
 #include "tests/render/test_sea.h"
 
 ABSL_FLAG(int, frames, 12, "Pictures per size; the first is left out");
-ABSL_FLAG(int, samples, 4, "Samples of the geometry: 1 or 4");
+ABSL_FLAG(int, samples, 0, "Samples of the geometry: 1, 4 or 0, as the driver can afford");
 
 namespace onesea::render {
 namespace {

@@ -5,14 +5,13 @@
 namespace onesea::render {
 namespace {
 
-// Between the classes 0, 0.5 and 1, in clip space.
-constexpr float kBetweenSheetAndSky = -0.5f, kBetweenSkyAndEdge = 0.5f;
+constexpr float kLow = 0.25f, kStep = 0.5f, kHigh = 0.75f;
 
-void Choose(const ShaderProgram& program, float plane, GLenum test) {
+void Choose(const ShaderProgram& program, float depth, GLenum test) {
   glEnable(GL_DEPTH_TEST);
   glDepthMask(GL_FALSE);
   glDepthFunc(test);
-  glUniform1f(program.Uniform("plane"), plane);
+  glUniform1f(program.Uniform("plane"), 2.0f * depth - 1.0f);
 }
 
 }  // namespace
@@ -21,8 +20,11 @@ absl::StatusOr<ClassifyPass> ClassifyPass::Create() {
   std::array<ShaderProgram, 2> programs;
   for (std::size_t n = 0; n < programs.size(); ++n) {
     auto program =
-        ShaderProgram::Build({"fullscreen.vert.glsl"}, {"frame.glsl", "classify.frag.glsl"},
-                             {n == 0 ? "SAMPLES 1" : "SAMPLES 4"});
+        n == 0 ? ShaderProgram::Build({"fullscreen.vert.glsl"},
+                                      {"frame.glsl", "steps.glsl", "classify.frag.glsl"},
+                                      {"SAMPLES 1"})
+               : ShaderProgram::Build({"fullscreen.vert.glsl"},
+                                      {"frame.glsl", "classify.frag.glsl"}, {"SAMPLES 4"});
     if (!program.ok()) return program.status();
     programs[n] = std::move(*program);
   }
@@ -42,8 +44,13 @@ void ClassifyPass::Draw(const VertexArray& empty, const ColorTarget& scene,
   }
   const ShaderProgram& program = programs_[geometry.target() == GL_TEXTURE_2D ? 0 : 1];
   program.Use();
-  BindTexture(0, geometry.target(), geometry.surface());
-  program.SetSampler("surface_map", 0);
+  if (geometry.target() == GL_TEXTURE_2D) {
+    BindTexture(0, GL_TEXTURE_2D, geometry.depth());
+    program.SetSampler("depth_map", 0);
+  } else {
+    BindTexture(0, geometry.target(), geometry.surface());
+    program.SetSampler("surface_map", 0);
+  }
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_ALWAYS);
   glDepthMask(GL_TRUE);
@@ -54,14 +61,20 @@ void ClassifyPass::Draw(const VertexArray& empty, const ColorTarget& scene,
   ChooseAll();
 }
 
+void ClassifyPass::ShareClasses(const ColorTarget& other) const {
+  glBindFramebuffer(GL_FRAMEBUFFER, other.framebuffer.id());
+  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_.id());
+}
 void ClassifyPass::ChooseSheets(const ShaderProgram& program) {
-  Choose(program, kBetweenSheetAndSky, GL_GREATER);
+  Choose(program, kLow, GL_GREATER);
 }
-void ClassifyPass::ChooseEdges(const ShaderProgram& program) {
-  Choose(program, kBetweenSkyAndEdge, GL_LESS);
+void ClassifyPass::ChooseSheetsAndSteps(const ShaderProgram& program) {
+  Choose(program, kHigh, GL_GREATER);
 }
-void ClassifyPass::ChooseSkyAndEdges(const ShaderProgram& program) {
-  Choose(program, kBetweenSheetAndSky, GL_LESS);
+void ClassifyPass::ChooseSteps(const ShaderProgram& program) { Choose(program, kStep, GL_EQUAL); }
+void ClassifyPass::ChooseEdges(const ShaderProgram& program) { Choose(program, kHigh, GL_LESS); }
+void ClassifyPass::ChooseNotSheets(const ShaderProgram& program) {
+  Choose(program, kLow, GL_LESS);
 }
 void ClassifyPass::ChooseAll() {
   glDisable(GL_DEPTH_TEST);

@@ -12,6 +12,13 @@ namespace onesea::render {
 /// The picture in linear radiance, with the class of each pixel as its depth: what is shaded later
 /// is chosen by the depth test, which skips whole blocks of pixels before a shader runs. (An `if`
 /// in the shader would skip nothing on a software rasteriser.)
+///
+///   depth  samples  class
+///   0      both     one sheet of water
+///   0.5    1        beside a step in distance: a crest, what is behind it, the sky
+///   1      1        sky alone
+///   0.5    4        sky alone
+///   1      4        an edge: several sheets of water within the pixel, or water and sky
 class ClassifyPass {
  public:
   static absl::StatusOr<ClassifyPass> Create();
@@ -19,11 +26,16 @@ class ClassifyPass {
   /// Writes the classes of `geometry` into the depth of `scene`.
   void Draw(const VertexArray& empty, const ColorTarget& scene, const SurfaceGridPass& geometry);
 
+  /// Lets the choices below hold for what is drawn into `other`, of the same size, too.
+  void ShareClasses(const ColorTarget& other) const;
+
   /// Restricts what is drawn next with `program` (in use) to one class of pixels; full-screen
   /// triangles only. Ends with ChooseAll().
-  static void ChooseSheets(const ShaderProgram& program);  ///< one sheet of water
-  static void ChooseEdges(const ShaderProgram& program);   ///< several sheets, or water and sky
-  static void ChooseSkyAndEdges(const ShaderProgram& program);
+  static void ChooseSheets(const ShaderProgram& program);
+  static void ChooseSheetsAndSteps(const ShaderProgram& program);
+  static void ChooseSteps(const ShaderProgram& program);
+  static void ChooseEdges(const ShaderProgram& program);
+  static void ChooseNotSheets(const ShaderProgram& program);  ///< sky, steps, edges
   static void ChooseAll();
 
  private:

@@ -76,7 +76,7 @@ void SkyPass::Place(const VertexArray& empty, const ColorTarget& scene) {
   place_.Use();
   BindTexture(0, GL_TEXTURE_2D, small_.texture);
   place_.SetSampler("small_sky", 0);
-  ClassifyPass::ChooseSkyAndEdges(place_);
+  ClassifyPass::ChooseNotSheets(place_);
   glBindVertexArray(empty.id());
   glDrawArrays(GL_TRIANGLES, 0, 3);
   ClassifyPass::ChooseAll();

@@ -96,6 +96,7 @@ void SurfacePass::Draw(const VertexArray& empty, const ColorTarget& scene,
   glBindVertexArray(empty.id());
   glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);  // the covered share over the sky, premultiplied
   for (bool edges : {false, true}) {
+    if (edges && variant.samples == 1) break;
     variant.edges = edges;
     const ShaderProgram& program = ProgramFor(variant);
     program.Use();
@@ -108,7 +109,8 @@ void SurfacePass::Draw(const VertexArray& empty, const ColorTarget& scene,
       glEnable(GL_BLEND);
       ClassifyPass::ChooseEdges(program);
     } else {
-      ClassifyPass::ChooseSheets(program);
+      variant.samples == 1 ? ClassifyPass::ChooseSheetsAndSteps(program)
+                           : ClassifyPass::ChooseSheets(program);
     }
     glDrawArrays(GL_TRIANGLES, 0, 3);
   }

@@ -30,7 +30,7 @@ class SurfacePass {
   static absl::StatusOr<SurfacePass> Create();
 
   void SetFoamWindow(const FoamCells& foam);
-  /// Where ClassifyPass left sheets and edges; `variant.edges` and `.samples` are filled in. A new
+  /// Where ClassifyPass found water; `variant.edges` and `.samples` are filled in. A new
   /// variant is compiled on first use.
   void Draw(const VertexArray& empty, const ColorTarget& scene, const SurfaceGridPass& geometry,
             const SeaTextures& sea, const RipplePass& ripples, const SkyPass& sky,

@@ -14,26 +14,31 @@ absl::StatusOr<SurfaceGridPass> SurfaceGridPass::Create() {
   return SurfaceGridPass(std::move(*program));
 }
 
+void SurfaceGridPass::Allocate(const Texture& texture, GLenum internal_format, GLenum format) {
+  BindTexture(0, target(), texture);
+  if (samples_ > 1) {
+    glTexImage2DMultisample(target(), samples_, internal_format, width_, height_, GL_TRUE);
+    return;
+  }
+  glTexImage2D(target(), 0, static_cast<GLint>(internal_format), width_, height_, 0, format,
+               GL_FLOAT, nullptr);
+  SetSampling(target(), GL_NEAREST, GL_NEAREST, GL_CLAMP_TO_EDGE);
+}
+
 void SurfaceGridPass::Resize(int width, int height, int samples) {
   if (width == width_ && height == height_ && samples == samples_) return;
   width_ = width;
   height_ = height;
-  if (samples != samples_) surface_ = Texture();  // a texture keeps the kind of its first binding
-  samples_ = samples;
-  glActiveTexture(GL_TEXTURE0);
-  glBindTexture(target(), surface_.id());
-  if (samples > 1) {
-    glTexImage2DMultisample(target(), samples, GL_RGBA16F, width, height, GL_TRUE);
-  } else {
-    glTexImage2D(target(), 0, GL_RGBA16F, width, height, 0, GL_RGBA, GL_FLOAT, nullptr);
-    SetSampling(target(), GL_NEAREST, GL_NEAREST, GL_CLAMP_TO_EDGE);
+  if (samples != samples_) {  // a texture keeps the kind of its first binding
+    surface_ = Texture();
+    depth_ = Texture();
   }
-  glBindRenderbuffer(GL_RENDERBUFFER, depth_.id());
-  glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples > 1 ? samples : 0,
-                                   GL_DEPTH_COMPONENT32F, width, height);
+  samples_ = samples;
+  Allocate(surface_, GL_RGBA16F, GL_RGBA);
+  Allocate(depth_, GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT);
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, target(), surface_.id(), 0);
-  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_.id());
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, target(), depth_.id(), 0);
   ONESEA_CHECK(glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE);
 }
 

@@ -18,16 +18,18 @@ class SurfaceGridPass {
   void Draw(const OceanGrid& grid, const SeaTextures& sea, int width, int height, int samples);
 
   const Texture& surface() const { return surface_; }
+  /// Of a picture of one sample per pixel.
+  const Texture& depth() const { return depth_; }
   GLenum target() const { return samples_ > 1 ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D; }
 
  private:
   explicit SurfaceGridPass(ShaderProgram program) : program_(std::move(program)) {}
+  void Allocate(const Texture& texture, GLenum internal_format, GLenum format);
   void Resize(int width, int height, int samples);
   void UpdateIndices(const OceanGrid& grid);
 
   ShaderProgram program_;
-  Texture surface_;
-  Renderbuffer depth_;
+  Texture surface_, depth_;
   Framebuffer framebuffer_;
   VertexArray vertices_;
   Buffer indices_;

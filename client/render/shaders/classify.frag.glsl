@@ -1,13 +1,12 @@
 // Sorts pixels by how they must be shaded, as depth, so that later passes skip whole blocks of them
-// before any shader runs: 0 one sheet of water, 0.5 sky alone, 1 an edge (several sheets, or sky too).
+// before any shader runs. Classes: see client/render/passes/classify.h.
 #if SAMPLES > 1
 uniform sampler2DMS surface_map;
-#else
-uniform sampler2D surface_map;
 #endif
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
+#if SAMPLES > 1
   float low = 1e9, high = -1e9, covered = 0.0;
   for (int n = 0; n < SAMPLES; ++n) {
     vec4 s = texelFetch(surface_map, pixel, n);
@@ -18,4 +17,13 @@ void main() {
   bool sheet = covered == float(SAMPLES) && high - low < 0.04 * abs(high) + 0.05;
   bool sky = covered == 0.0 && eye.z >= 0.0;
   gl_FragDepth = sheet ? 0.0 : (sky ? 0.5 : 1.0);
+#else
+  float self = depth_at(pixel);
+  ivec2 up = upwards();
+  // The second difference: the sea's way to the horizon is steep but even.
+  bool step = abs(depth_at(pixel + up) + depth_at(pixel - up) - 2.0 * self) > kStep;
+  // Under water there is no sky: rays that meet no surface end in the water.
+  bool sky = self == 1.0 && eye.z >= 0.0;
+  gl_FragDepth = step ? 0.5 : (sky ? 1.0 : 0.0);
+#endif
 }

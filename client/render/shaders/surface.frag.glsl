@@ -198,6 +198,9 @@ vec3 shade_below(vec2 xy, float distance, float stretch, vec3 direction) {
   vec3 passed = exp(-distance * vec3(0.30, 0.09, 0.07));
   return mix(below, colour, passed);
 }
+
+// On a ray from under water that meets no surface.
+vec3 water_body(vec3 direction) { return 3.0 * water_leaving.rgb * (1.0 + 0.6 * direction.z); }
 #endif
 
 // `s` as surface_grid.frag.glsl writes it.
@@ -236,14 +239,20 @@ void main() {
   vec3 colour = mix(shade(far, direction), shade(near, direction), near_share / max(covered, 1e-3));
 #if UNDERSIDE
   if (eye.z < 0.0) {
-    // No surface on this ray from under water: the body of the sea.
-    vec3 body = 3.0 * water_leaving.rgb * (1.0 + 0.6 * direction.z);
-    colour = mix(body, colour, covered);
+    colour = mix(water_body(direction), colour, covered);
     covered = 1.0;
   }
 #endif
   radiance = vec4(colour * covered, covered);
 #else
-  radiance = vec4(shade(texelFetch(surface_map, pixel, 0), direction), 1.0);
+  vec4 s = texelFetch(surface_map, pixel, 0);
+  vec3 colour = shade(s, direction);
+#if UNDERSIDE
+  if (eye.z < 0.0 && s.w < 0.5) colour = water_body(direction);
+#endif
+#if SAMPLES == 1
+  if (s.w < 0.5 && eye.z >= 0.0) discard;  // the sky beside a crest
+#endif
+  radiance = vec4(colour, 1.0);
 #endif
 }
