@@ -146,7 +146,6 @@ void Renderer::Draw(const RenderFrame& frame, int width, int height, unsigned fr
     r.sea.Upload(frame.cascades);
     r.surface.SetFoamWindow(frame.foam);
   });
-  r.Pass("mips", [&] { r.sea.MakeMips(); });
   r.Pass("ripples", [&] {
     r.ripples.Draw(r.empty, frame.seed, frame.time_s, 0.66 * UnresolvedSlopeVariance(frame, stats),
                    frame.weather.wind_to_rad);
@@ -164,7 +163,7 @@ void Renderer::Draw(const RenderFrame& frame, int width, int height, unsigned fr
   r.Pass("small sky", [&] { r.sky.DrawSmall(r.empty, block, width, height); });
   r.Pass("geometry", [&] { r.grid.Draw(grid, r.sea, width, height, samples); });
   r.Pass("classify", [&] { r.classify.Draw(r.empty, r.scene, r.grid); });
-  r.Pass("sky", [&] { r.sky.Place(r.empty, r.scene); });
+  r.Pass("sky", [&] { r.sky.Place(r.empty, block, r.scene); });
   r.Pass("surface", [&] {
     SurfaceVariant variant;
     variant.underside = frame.camera.position_m.z < displacement_max_m;

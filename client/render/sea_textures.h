@@ -9,8 +9,8 @@ namespace onesea::render {
 
 /// The sea's fields on the graphics card: two 2-D arrays, one layer per cascade, with mips.
 ///
-///   displacement  RGBA16F  D_x, D_y, eta, 0
-///   slope         RGBA16F  slope_x, slope_y, J_xx + J_yy, slope_x² + slope_y²
+///   displacement  RGBA32F  D_x, D_y, eta, 0
+///   slope         RGBA32F  slope_x, slope_y, J_xx + J_yy, slope_x² + slope_y²
 ///
 /// A mip of the squares less the square of the mip is the slope variance that the mip has lost
 /// (LEAN mapping, Olano & Baker 2010); the shader shares it out over directions as the whole
@@ -21,8 +21,6 @@ class SeaTextures {
  public:
   /// Pre: 1..kRenderCascadesMax cascades of the same power-of-two N, all planes (N x N).
   void Upload(const std::vector<CascadePlanes>& cascades);
-  /// Rebuilds the mips; separate from Upload() so that it can be timed.
-  void MakeMips();
 
   const Texture& displacement() const { return displacement_; }
   const Texture& slope() const { return slope_; }
@@ -32,7 +30,7 @@ class SeaTextures {
 
   Texture displacement_, slope_;
   int grid_size_ = 0, layers_ = 0;
-  std::vector<float> texels_;  // one layer; the driver makes halves of them, faster than we could
+  std::vector<float> texels_;  // one layer; not halved to 16 bits: that takes longer than it saves
 };
 
 }  // namespace onesea::render

@@ -19,7 +19,6 @@ TEST_F(SeaTexturesTest, EveryMipHoldsTheWholeSlopeVariance) {
   sea.FillFrame(3.0, frame);
   SeaTextures textures;
   textures.Upload(frame.cascades);
-  textures.MakeMips();
   for (std::size_t layer = 0; layer < frame.cascades.size(); ++layer) {
     double expected = 0.0;
     const CascadePlanes& planes = frame.cascades[layer];

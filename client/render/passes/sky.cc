@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 #include "client/render/foam_texture.h"
 #include "client/render/passes/classify.h"
@@ -20,20 +21,45 @@ int LowestSkyRow(const FrameBlock& block, int rows) {
   return std::max(0, static_cast<int>(row) - 2);
 }
 
+struct Box {
+  int x = 0, y = 0, side = 0;
+};
+
+// The pixels round the sun's disc; none when it is behind the eye. A disc near the picture's corner
+// is drawn out by at most 1 / cos² of its angle from the middle.
+Box SunBox(const FrameBlock& block, int width, int height) {
+  const glm::vec3 sun(block.sun_direction), forward(block.ray_forward);
+  const glm::vec3 right(block.ray_right), up(block.ray_up);
+  const float depth = glm::dot(sun, forward);
+  if (!(depth > 0.05f)) return {};
+  // In [-1, 1] within the picture.
+  const float x = glm::dot(sun, right) / (depth * glm::dot(right, right));
+  const float y = glm::dot(sun, up) / (depth * glm::dot(up, up));
+  if (std::abs(x) > 4.0f || std::abs(y) > 4.0f) return {};
+  const float radius_px = 4.0f + 0.00465f / (block.ray_forward.w * depth * depth);
+  const float left = 0.5f * (x + 1.0f) * static_cast<float>(width) - radius_px;
+  const float bottom = 0.5f * (y + 1.0f) * static_cast<float>(height) - radius_px;
+  return {static_cast<int>(std::floor(left)), static_cast<int>(std::floor(bottom)),
+          static_cast<int>(std::ceil(2.0f * radius_px)) + 1};
+}
+
 }  // namespace
 
 absl::StatusOr<SkyPass> SkyPass::Create() {
   auto sky =
       ShaderProgram::Build({"fullscreen.vert.glsl"}, {"frame.glsl", "sky.glsl", "sky.frag.glsl"});
   if (!sky.ok()) return sky.status();
-  auto place =
-      ShaderProgram::Build({"fullscreen.vert.glsl"}, {"frame.glsl", "sky_place.frag.glsl"});
+  auto place = ShaderProgram::Build({"fullscreen.vert.glsl"},
+                                    {"frame.glsl", "sky_place.frag.glsl"}, {"SUN 0"});
   if (!place.ok()) return place.status();
-  return SkyPass(std::move(*sky), std::move(*place));
+  auto sun = ShaderProgram::Build({"fullscreen.vert.glsl"}, {"frame.glsl", "sky_place.frag.glsl"},
+                                  {"SUN 1"});
+  if (!sun.ok()) return sun.status();
+  return SkyPass(std::move(*sky), std::move(*place), std::move(*sun));
 }
 
-SkyPass::SkyPass(ShaderProgram sky, ShaderProgram place)
-    : sky_(std::move(sky)), place_(std::move(place)) {
+SkyPass::SkyPass(ShaderProgram sky, ShaderProgram place, ShaderProgram sun)
+    : sky_(std::move(sky)), place_(std::move(place)), sun_(std::move(sun)) {
   constexpr int kCloudSize = 512;
   const std::vector<std::uint8_t> clouds = MakeCloudTexture(kCloudSize);
   BindTexture(0, GL_TEXTURE_2D, clouds_);
@@ -71,7 +97,7 @@ void SkyPass::DrawSmall(const VertexArray& empty, const FrameBlock& block, int w
   glDisable(GL_SCISSOR_TEST);
 }
 
-void SkyPass::Place(const VertexArray& empty, const ColorTarget& scene) {
+void SkyPass::Place(const VertexArray& empty, const FrameBlock& block, const ColorTarget& scene) {
   scene.Bind();
   place_.Use();
   BindTexture(0, GL_TEXTURE_2D, small_.texture);
@@ -79,6 +105,18 @@ void SkyPass::Place(const VertexArray& empty, const ColorTarget& scene) {
   ClassifyPass::ChooseNotSheets(place_);
   glBindVertexArray(empty.id());
   glDrawArrays(GL_TRIANGLES, 0, 3);
+  if (const Box box = SunBox(block, scene.width, scene.height); box.side > 0) {
+    sun_.Use();
+    sun_.SetSampler("small_sky", 0);
+    ClassifyPass::ChooseNotSheets(sun_);
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(box.x, box.y, box.side, box.side);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glDisable(GL_BLEND);
+    glDisable(GL_SCISSOR_TEST);
+  }
   ClassifyPass::ChooseAll();
 }
 

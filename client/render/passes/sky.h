@@ -17,15 +17,15 @@ class SkyPass {
   /// Air and clouds for a picture of this size; `block` as the shaders see it. Needs nothing of the
   /// sea: drawn before the lattice, a software rasteriser fills it while vertices are placed.
   void DrawSmall(const VertexArray& empty, const FrameBlock& block, int width, int height);
-  /// Puts them where ClassifyPass left sky and edges.
-  void Place(const VertexArray& empty, const ColorTarget& scene);
+  /// Puts them, and the sun, where ClassifyPass found no sheet of water alone.
+  void Place(const VertexArray& empty, const FrameBlock& block, const ColorTarget& scene);
 
   const Texture& map() const { return map_; }
   const Texture& clouds() const { return clouds_; }
 
  private:
-  SkyPass(ShaderProgram sky, ShaderProgram place);
-  ShaderProgram sky_, place_;
+  SkyPass(ShaderProgram sky, ShaderProgram place, ShaderProgram sun);
+  ShaderProgram sky_, place_, sun_;
   ColorTarget small_;
   Texture map_, clouds_;
 };

@@ -1,8 +1,10 @@
-// The sky where no water covers it, from its small picture, and the sun's disc, which is sharp.
+// The sky where no water covers it, from its small picture; with SUN only the sun's disc, which is
+// sharp, to be added.
 uniform sampler2D small_sky;
 in vec2 picture;
 out vec4 radiance;
 
+#if SUN
 vec3 sun_disc(vec3 direction) {
   // Small angles: the chord is the angle. The edge is a pixel wide.
   float angle = length(direction - sun_direction.xyz);
@@ -11,9 +13,13 @@ vec3 sun_disc(vec3 direction) {
   float limb = sqrt(max(0.1, 1.0 - angle * angle / (radius * radius)));
   return inside * min(sun_irradiance.rgb / (kPi * 0.00465 * 0.00465) * limb, vec3(3000.0));
 }
+#endif
 
 void main() {
   vec4 sky = textureLod(small_sky, 0.5 * picture + 0.5, 0.0);
-  vec3 colour = sky.rgb + sun_disc(picture_ray(picture)) * sky.a;
-  radiance = vec4(min(colour, vec3(60000.0)), 1.0);
+#if SUN
+  radiance = vec4(sun_disc(picture_ray(picture)) * sky.a, 0.0);
+#else
+  radiance = vec4(min(sky.rgb, vec3(57000.0)), 1.0);
+#endif
 }
