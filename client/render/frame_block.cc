@@ -96,7 +96,7 @@ void FillLight(const RenderFrame& frame, const SkyLight& light, FrameBlock& bloc
       Pack(BubblyReflectance(optics, 0.10f) * (0.54f / 4.0f) * down, frame.time_s * 1e-5);
   block.crest_radiance =
       Pack(bubbly * light.sun_irradiance * (1.0f / static_cast<float>(kPi)), 0.0);
-  block.haze = Pack(light.extinction_per_m, HorizonDistanceM(frame.camera.position_m.z));
+  block.haze = Pack(light.extinction_per_m, 0.0);
   block.cloud_radiance = Pack(light.cloud_radiance, 1.0 / kCloudMapM);
 }
 
@@ -126,12 +126,13 @@ void FillFoam(const RenderFrame& frame, double slope_variance, FrameBlock& block
   const double folding_deviation = frame.choppiness * std::sqrt(std::max(slope_variance, 1e-8));
   const double threshold =
       cover > 0.0 ? 1.0 - DeviationsExceededBy(cover) * folding_deviation : -99.0;
-  block.wind = Pack(std::cos(frame.weather.wind_to_rad), std::sin(frame.weather.wind_to_rad),
-                    frame.weather.wind_speed_m_per_s, threshold);
+  block.wind = Pack(std::cos(frame.weather.wind_to_rad), std::sin(frame.weather.wind_to_rad), 0.0,
+                    threshold);
   block.foam_detail = Pack(Fraction(eye.x / kFoamTextureM), Fraction(eye.y / kFoamTextureM),
-                           1.0 / kFoamTextureM, 0.0);
+                           1.0 / kFoamTextureM, std::log2(kFoamTextureSize / kFoamTextureM));
   if (frame.foam.cells.empty()) return;
   block.foam_level = FoamLevel(frame.foam, cover);
+  block.foam_level.z = static_cast<float>(-std::log2(frame.foam.cell_m));
   const double extent = frame.foam.side * frame.foam.cell_m;
   block.foam_window =
       Pack(Fraction((eye.x - frame.foam.origin_m.x) / extent),
@@ -140,7 +141,6 @@ void FillFoam(const RenderFrame& frame, double slope_variance, FrameBlock& block
 
 void FillWaves(const RenderFrame& frame, const std::vector<SlopeStats>& stats, FrameBlock& block) {
   const Vec2d eye{frame.camera.position_m.x, frame.camera.position_m.y};
-  double height_variance = 0.0;
   for (std::size_t c = 0; c < frame.cascades.size(); ++c) {
     const CascadePlanes& planes = frame.cascades[c];
     block.cascade_map[c] =
@@ -150,7 +150,6 @@ void FillWaves(const RenderFrame& frame, const std::vector<SlopeStats>& stats, F
     const SlopeStats& s = stats[c];
     const double trace = std::max(s.xx + s.yy, 1e-12);
     block.cascade_share[c] = Pack(s.xx / trace, s.yy / trace, s.xy / trace, 0);
-    height_variance += s.height_variance_m2;
   }
   const std::size_t regular =
       std::min<std::size_t>(frame.regular_waves.size(), kRenderRegularWavesMax);
@@ -159,11 +158,9 @@ void FillWaves(const RenderFrame& frame, const std::vector<SlopeStats>& stats, F
     const double phase = wave.phase_rad + wave.kx_rad_per_m * eye.x + wave.ky_rad_per_m * eye.y;
     block.regular[n] = Pack(wave.kx_rad_per_m, wave.ky_rad_per_m, wave.amplitude_m,
                             2.0 * kPi * Fraction(phase / (2.0 * kPi)));
-    height_variance += 0.5 * wave.amplitude_m * wave.amplitude_m;
   }
   block.counts = Pack(static_cast<double>(frame.cascades.size()), static_cast<double>(regular),
                       frame.cascades.empty() ? 1.0 : frame.cascades[0].grid_size, kNearM);
-  block.crest_radiance.w = static_cast<float>(4.0 * std::sqrt(height_variance));
 }
 
 }  // namespace

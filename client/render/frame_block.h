@@ -13,32 +13,34 @@ namespace onesea::render {
 /// languages agree on every offset. Positions are relative to the eye's horizontal position.
 struct FrameBlock {
   glm::mat4 clip_from_world;
-  glm::vec4 ray_forward;      // w: radians per pixel
-  glm::vec4 ray_right;        // times the tangent of half the width; w: picture width
-  glm::vec4 ray_up;           // times the tangent of half the height; w: picture height
-  glm::vec4 eye;              // xyz: eye (0, 0, height); w: time [s], modulo an hour
-  glm::vec4 sun_direction;    // w: azimuth [rad]
-  glm::vec4 sun_irradiance;   // w: exposure
-  glm::vec4 sky_irradiance;   // w: cloud cover
-  glm::vec4 water_leaving;    // w: choppiness
-  glm::vec4 crest_radiance;   // w: significant wave height [m]
+  glm::vec4 ray_forward;     // w: radians per pixel
+  glm::vec4 ray_right;       // times the tangent of half the width; w: picture width
+  glm::vec4 ray_up;          // times the tangent of half the height; w: picture height
+  glm::vec4 eye;             // xyz: eye (0, 0, height); w: time [s], modulo an hour
+  glm::vec4 sun_direction;   // w: azimuth [rad]
+  glm::vec4 sun_irradiance;  // w: exposure
+  glm::vec4 sky_irradiance;  // w: cloud cover
+  glm::vec4 water_leaving;   // w: choppiness
+  glm::vec4 crest_radiance;
   glm::vec4 foam_irradiance;  // rgb: colour of bubbly water; w: clouds' drift
-  glm::vec4 haze;             // rgb: extinction [1/m]; w: eye's horizon distance [m]
+  glm::vec4 haze;             // rgb: extinction [1/m]
   glm::vec4 cloud_radiance;   // w: 1 / cloud map [m]
-  glm::vec4 wind;             // xy: direction, z: speed, w: fold threshold of far foam
+  glm::vec4 wind;             // xy: direction, w: fold threshold of far foam
   glm::vec4 foam_window;      // xy: offset [turns], z: 1/extent, w: half extent [m], 0: none
-  glm::vec4 foam_level;       // x: below this there is no white, y: gain above it
-  glm::vec4 foam_detail;      // xy: offset [turns], z: 1/tile
-  glm::vec4 ripple_map;       // xy: offset [turns], z: 1/length, w: log2 of the texel [m]
-  glm::vec4 ripple_stats;     // xyz: variance xx, yy, xy of ripples; w: 1 if drawn
-  glm::vec4 fine_variance;    // xyz: slope variance held by no texture
-  glm::vec4 grid;             // x: columns, y: first azimuth, z: azimuth step, w: log radius step
-  glm::vec4 grid_rows;        // x: first row's log radius, y: 1 if row 0 is the nadir
-  glm::vec4 counts;           // x: cascades, y: regular waves, z: texels per side
+  glm::vec4
+      foam_level;  // x: below this there is no white, y: gain above it, z: log2 of cells per m
+  glm::vec4 foam_detail;    // xy: offset [turns], z: 1/tile, w: log2 of texels per m
+  glm::vec4 ripple_map;     // xy: offset [turns], z: 1/length, w: log2 of the texel [m]
+  glm::vec4 ripple_stats;   // xyz: variance xx, yy, xy of ripples; w: 1 if drawn
+  glm::vec4 fine_variance;  // xyz: slope variance held by no texture
+  glm::vec4 grid;           // x: columns, y: first azimuth, z: azimuth step, w: log radius step
+  glm::vec4 grid_rows;      // x: first row's log radius, y: 1 if row 0 is the nadir
+  glm::vec4 counts;         // x: cascades, y: regular waves, z: texels per side
   glm::vec4 cascade_map[kRenderCascadesMax];   // xy: offset [turns], z: 1/length, w: log2 texel [m]
   glm::vec4 cascade_turn[kRenderCascadesMax];  // xy: cos, sin of the rotation
-  glm::vec4 cascade_share[kRenderCascadesMax];  // xyz: xx, yy, xy of its slope variance, over their trace
-  glm::vec4 regular[kRenderRegularWavesMax];   // kx, ky, amplitude, phase at the eye
+  glm::vec4
+      cascade_share[kRenderCascadesMax];  // xyz: xx, yy, xy of its slope variance, over their trace
+  glm::vec4 regular[kRenderRegularWavesMax];  // kx, ky, amplitude, phase at the eye
 };
 
 /// Slope variance [-] of one cascade, measured over its tile.

@@ -116,9 +116,9 @@ absl::StatusOr<std::unique_ptr<Renderer>> Renderer::Create() {
   ONESEA_ASSIGN_OR_RETURN(SurfacePass surface, SurfacePass::Create());
   ONESEA_ASSIGN_OR_RETURN(SmoothStepsPass smooth_steps, SmoothStepsPass::Create());
   ONESEA_ASSIGN_OR_RETURN(ToneMapPass tone, ToneMapPass::Create());
-  return std::unique_ptr<Renderer>(
-      new Renderer(std::make_unique<Impl>(std::move(ripples), std::move(grid), std::move(classify),
-                                          std::move(sky), std::move(surface), std::move(smooth_steps), std::move(tone))));
+  return std::unique_ptr<Renderer>(new Renderer(std::make_unique<Impl>(
+      std::move(ripples), std::move(grid), std::move(classify), std::move(sky), std::move(surface),
+      std::move(smooth_steps), std::move(tone))));
 }
 
 Renderer::Renderer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}

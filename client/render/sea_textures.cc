@@ -13,8 +13,8 @@ void AllocateArray(const Texture& texture, int grid_size, int layers) {
   BindTexture(0, GL_TEXTURE_2D_ARRAY, texture);
   int level = 0;
   for (int side = grid_size; side >= 1; side /= 2, ++level) {
-    glTexImage3D(GL_TEXTURE_2D_ARRAY, level, GL_RGBA32F, side, side, layers, 0, GL_RGBA,
-                 GL_FLOAT, nullptr);
+    glTexImage3D(GL_TEXTURE_2D_ARRAY, level, GL_RGBA32F, side, side, layers, 0, GL_RGBA, GL_FLOAT,
+                 nullptr);
   }
   glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAX_LEVEL, level - 1);
   SetSampling(GL_TEXTURE_2D_ARRAY, GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR, GL_REPEAT);

@@ -153,8 +153,8 @@ void TestSea::FillFrame(double time_s, RenderFrame& frame) {
   for (Tile& tile : tiles_) {
     Synthesise(tile, time_s);
     const auto& p = tile.planes;
-    frame.cascades.push_back({grid_size_, tile.length_m, tile.rotation_rad, p[0], p[1], p[2], p[3],
-                              p[4], p[5], p[6]});
+    frame.cascades.push_back(
+        {grid_size_, tile.length_m, tile.rotation_rad, p[0], p[1], p[2], p[3], p[4], p[5], p[6]});
   }
   frame.time_s = time_s;
   frame.unresolved_mss = unresolved_mss_;

@@ -19,12 +19,12 @@ void Choose(const ShaderProgram& program, float depth, GLenum test) {
 absl::StatusOr<ClassifyPass> ClassifyPass::Create() {
   std::array<ShaderProgram, 2> programs;
   for (std::size_t n = 0; n < programs.size(); ++n) {
-    auto program =
-        n == 0 ? ShaderProgram::Build({"fullscreen.vert.glsl"},
-                                      {"frame.glsl", "steps.glsl", "classify.frag.glsl"},
-                                      {"SAMPLES 1"})
-               : ShaderProgram::Build({"fullscreen.vert.glsl"},
-                                      {"frame.glsl", "classify.frag.glsl"}, {"SAMPLES 4"});
+    auto program = n == 0
+                       ? ShaderProgram::Build({"fullscreen.vert.glsl"},
+                                              {"frame.glsl", "steps.glsl", "classify.frag.glsl"},
+                                              {"SAMPLES 1"})
+                       : ShaderProgram::Build({"fullscreen.vert.glsl"},
+                                              {"frame.glsl", "classify.frag.glsl"}, {"SAMPLES 4"});
     if (!program.ok()) return program.status();
     programs[n] = std::move(*program);
   }
@@ -65,17 +65,13 @@ void ClassifyPass::ShareClasses(const ColorTarget& other) const {
   glBindFramebuffer(GL_FRAMEBUFFER, other.framebuffer.id());
   glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_.id());
 }
-void ClassifyPass::ChooseSheets(const ShaderProgram& program) {
-  Choose(program, kLow, GL_GREATER);
-}
+void ClassifyPass::ChooseSheets(const ShaderProgram& program) { Choose(program, kLow, GL_GREATER); }
 void ClassifyPass::ChooseSheetsAndSteps(const ShaderProgram& program) {
   Choose(program, kHigh, GL_GREATER);
 }
 void ClassifyPass::ChooseSteps(const ShaderProgram& program) { Choose(program, kStep, GL_EQUAL); }
 void ClassifyPass::ChooseEdges(const ShaderProgram& program) { Choose(program, kHigh, GL_LESS); }
-void ClassifyPass::ChooseNotSheets(const ShaderProgram& program) {
-  Choose(program, kLow, GL_LESS);
-}
+void ClassifyPass::ChooseNotSheets(const ShaderProgram& program) { Choose(program, kLow, GL_LESS); }
 void ClassifyPass::ChooseAll() {
   glDisable(GL_DEPTH_TEST);
   glDepthMask(GL_TRUE);

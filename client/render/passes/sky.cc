@@ -49,8 +49,8 @@ absl::StatusOr<SkyPass> SkyPass::Create() {
   auto sky =
       ShaderProgram::Build({"fullscreen.vert.glsl"}, {"frame.glsl", "sky.glsl", "sky.frag.glsl"});
   if (!sky.ok()) return sky.status();
-  auto place = ShaderProgram::Build({"fullscreen.vert.glsl"},
-                                    {"frame.glsl", "sky_place.frag.glsl"}, {"SUN 0"});
+  auto place = ShaderProgram::Build({"fullscreen.vert.glsl"}, {"frame.glsl", "sky_place.frag.glsl"},
+                                    {"SUN 0"});
   if (!place.ok()) return place.status();
   auto sun = ShaderProgram::Build({"fullscreen.vert.glsl"}, {"frame.glsl", "sky_place.frag.glsl"},
                                   {"SUN 1"});
@@ -71,12 +71,31 @@ SkyPass::SkyPass(ShaderProgram sky, ShaderProgram place, ShaderProgram sun)
 }
 
 void SkyPass::SetLight(const SkyLight& light) {
+  SetHaze(light);
   BindTexture(0, GL_TEXTURE_3D, map_);
   glTexImage3D(GL_TEXTURE_3D, 0, GL_RGB16F, SkyLight::kColumns, SkyLight::kRows,
                SkyLight::kBlurLevels, 0, GL_RGB, GL_FLOAT, light.radiance.data());
   SetSampling(GL_TEXTURE_3D, GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE);
   glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_WRAP_S, GL_REPEAT);
   glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_WRAP_R, GL_CLAMP_TO_EDGE);
+}
+
+void SkyPass::SetHaze(const SkyLight& light) {
+  const double row = std::sqrt(0.02) * (SkyLight::kRows - 1);
+  const auto below = static_cast<std::size_t>(row);
+  const float share = static_cast<float>(row - std::floor(row));
+  std::vector<glm::vec3> haze(SkyLight::kColumns, glm::vec3(0.0f));
+  for (std::size_t column = 0; column < haze.size(); ++column) {
+    for (std::size_t level : {0, 1}) {  // the mean of sharp and 0.1 rad
+      const glm::vec3* at =
+          &light.radiance[(level * SkyLight::kRows + below) * SkyLight::kColumns + column];
+      haze[column] += 0.5f * glm::mix(at[0], at[SkyLight::kColumns], share);
+    }
+  }
+  BindTexture(0, GL_TEXTURE_2D, haze_);
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB16F, SkyLight::kColumns, 1, 0, GL_RGB, GL_FLOAT,
+               haze.data());
+  SetSampling(GL_TEXTURE_2D, GL_LINEAR, GL_LINEAR, GL_REPEAT);
 }
 
 void SkyPass::DrawSmall(const VertexArray& empty, const FrameBlock& block, int width, int height) {

@@ -21,13 +21,17 @@ class SkyPass {
   void Place(const VertexArray& empty, const FrameBlock& block, const ColorTarget& scene);
 
   const Texture& map() const { return map_; }
+  /// One row: what far air adds, by azimuth from the sun.
+  const Texture& haze() const { return haze_; }
   const Texture& clouds() const { return clouds_; }
 
  private:
   SkyPass(ShaderProgram sky, ShaderProgram place, ShaderProgram sun);
+  void SetHaze(const SkyLight& light);
+
   ShaderProgram sky_, place_, sun_;
   ColorTarget small_;
-  Texture map_, clouds_;
+  Texture map_, haze_, clouds_;
 };
 
 }  // namespace onesea::render

@@ -90,6 +90,7 @@ void SurfacePass::Draw(const VertexArray& empty, const ColorTarget& scene,
       {"foam_map", GL_TEXTURE_2D, foam_},
       {"foam_window_map", GL_TEXTURE_2D, foam_window_},
       {"sky_map", GL_TEXTURE_3D, sky.map()},
+      {"haze_map", GL_TEXTURE_2D, sky.haze()},
   };
   scene.Bind();
   variant.samples = geometry.target() == GL_TEXTURE_2D ? 1 : 4;

@@ -1,6 +1,8 @@
 // Radiance of the sky. `sky_map`: x azimuth from the sun, y root of the elevation's sine,
 // z blur; see client/render/sky_light.h.
 uniform sampler3D sky_map;
+// Its row a degree above the horizon, between sharp and blurred.
+uniform sampler2D haze_map;
 
 const vec3 kSkyMapSize = vec3(256.0, 96.0, 4.0);
 
@@ -30,6 +32,7 @@ vec3 sky_at(vec3 direction, float blur_rad) {
 // What lies behind `distance` metres of air near the sea, seen along `direction`.
 vec3 through_air(vec3 radiance, vec3 direction, float distance) {
   vec3 passed = exp(-haze.rgb * distance);
-  vec3 glow = sky_at(vec3(direction.xy, max(direction.z, 0.02)), 0.05);
+  float turns = (azimuth_of(direction.xy) - sun_direction.w) / (2.0 * kPi);
+  vec3 glow = textureLod(haze_map, vec2(turns + 0.5 / kSkyMapSize.x, 0.5), 0.0).rgb;
   return mix(glow, radiance, passed);
 }

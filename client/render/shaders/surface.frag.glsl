@@ -89,16 +89,19 @@ vec3 sun_glitter(Facets f, vec2 mean, vec3 variance, vec3 v) {
 }
 
 // Mean 1. Where a pixel sees only a few facets that can glint, their number is a matter of chance:
-// exponential numbers in cells of about a pixel, drawn anew eight times a second.
+// numbers of mean 1, mostly small, in cells of about a pixel, drawn anew eight times a second.
 float sparkle(vec2 xy, float footprint) {
-  float size = exp2(ceil(log2(max(footprint, 0.004))));
+  // The next power of two.
+  float size = uintBitsToFloat((floatBitsToUint(max(footprint, 0.004)) + 0x7fffffu) & 0xff800000u);
   vec2 cell = floor(xy / size + foam_detail.xy * (1.0 / foam_detail.z) / size);
   float turn = floor(eye.w * 8.0 + fract(dot(cell, vec2(0.371, 0.729))));
   vec3 p = fract(vec3(cell, turn) * vec3(0.1031, 0.1030, 0.0973));
   p += dot(p, p.yzx + 33.33);
   float u = fract((p.x + p.y) * p.z);
   float chance = 0.75 * (1.0 - smoothstep(0.15, 2.0, footprint));
-  return mix(1.0, -log(max(u, 1e-3)), chance);
+  // Mean, variance and darkest tenth of an exponential number, without its logarithm.
+  float u2 = u * u;
+  return mix(1.0, u * (1.2 + 3.2 * u2 * u2 * u2), chance);
 }
 
 struct Foam {
@@ -107,21 +110,21 @@ struct Foam {
   float shade;     // of its own relief
 };
 
-Foam foam_at(vec2 xy, Waves w, float fold, float footprint) {
+Foam foam_at(vec2 xy, Waves w, float fold, float footprint_log2) {
   float spread = sqrt(max(w.folding, 1e-6));
   // Even a resolved fold foams by degrees: thin lace first, froth where it is deepest.
   float cover = 0.85 * share_below(wind.w, fold, max(spread, 0.05));
   vec2 edge = abs(xy) / max(foam_window.w, 1e-3);
   float inside = 1.0 - smoothstep(0.75, 0.97, max(edge.x, edge.y));
   vec2 at = xy * foam_detail.z + foam_detail.xy;
-  float detail_lod = max(log2(footprint * foam_detail.z * 512.0), 0.0);
+  float detail_lod = max(footprint_log2 + foam_detail.w, 0.0);
   float lace = textureLod(foam_map, at, detail_lod).r;
   float fine = textureLod(foam_map, mat2(0.8, 0.6, -0.6, 0.8) * at * 2.7, detail_lod + 1.43).r;
   // Far away the tile's own lace is too small to see, and one five times as large takes over.
   float coarse = textureLod(foam_map, mat2(0.6, 0.8, -0.8, 0.6) * at * 0.21, max(detail_lod - 1.75, 0.0)).r;
 
   // Never the finest level: patches thin out over some metres, not from cell to cell.
-  float window_lod = max(log2(footprint * foam_window.z * float(textureSize(foam_window_map, 0).x)), 1.0);
+  float window_lod = max(footprint_log2 + foam_level.z, 1.0);
   // Bent by the lace, so that the window's cells don't show.
   vec2 bent = xy + vec2(coarse - 0.5, lace - 0.5) * 1.6;
   float window = textureLod(foam_window_map, bent * foam_window.z + foam_window.xy, window_lod).r;
@@ -168,7 +171,7 @@ vec3 shade_above(vec2 xy, float distance, float stretch, vec3 direction) {
   body += crest_radiance.rgb * glow;
 
   float footprint = distance * ray_forward.w * sqrt(min(stretch, 14.0));
-  Foam foam = foam_at(xy, w, fold, footprint);
+  Foam foam = foam_at(xy, w, fold, log2(footprint));
   body += foam_irradiance.rgb * foam.bubbles;
 
   float wet = 1.0 - foam.mask;
