@@ -57,9 +57,19 @@ class Announced {
   unsigned flags_;
 };
 
+// Abseil builds some waits on others, which then come here a second time.
+thread_local const absl::Mutex* waits_for = nullptr;
+
+struct WaitMark {
+  explicit WaitMark(const absl::Mutex* mutex) { waits_for = mutex; }
+  ~WaitMark() { waits_for = nullptr; }
+};
+
 // A wait gives the mutex back and takes it again.
 template <typename Wait>
 auto Waiting(absl::Mutex* mutex, Wait wait) {
+  if (waits_for == mutex) return wait();
+  const WaitMark mark(mutex);
   { const Announced unlock(mutex, Announced::Kind::kUnlock); }
   const Announced lock(mutex, Announced::Kind::kLock);
   return wait();
