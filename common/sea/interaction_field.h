@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "common/base/vec.h"
+#include "common/sea/cell_rect.h"
+
+/// The interaction layer between its cells: what every process takes it for. It adds to the
+/// spectral sea.
+namespace onesea::sea {
+
+/// One region at one instant. Arrays are (rows x columns) row-major; all but the heights may be
+/// empty, the three velocities together.
+struct InteractionField {
+  CellRect cells;
+  std::vector<float> height_m;                            ///< up, relative to the mean water level
+  std::vector<float> velocity_x, velocity_y, velocity_z;  ///< of the water at the surface [m/s]
+  std::vector<float> foam;  ///< share of the surface that is white, 0..1
+};
+
+/// All regions at one instant; never changes once made, so threads may share it.
+struct InteractionSnapshot {
+  std::int64_t tick = 0;
+  std::vector<std::shared_ptr<const InteractionField>> fields;
+};
+
+struct InteractionSample {
+  double height_m = 0.0;
+  Vec2d slope;        ///< ∂height/∂x, ∂height/∂y
+  Vec3d velocity;     ///< [m/s]
+  double foam = 0.0;  ///< 0..1
+};
+
+/// The sum over the fields. Heights and velocities are interpolated by Catmull-Rom splines of 4 x 4
+/// cells: exact at cells, slopes continuous. Cells beyond a field count as 0, so a field fades
+/// smoothly within two cells outside. Foam is interpolated bilinearly. Places that are not finite
+/// get zeros. The same bits on every machine. Cost: 20 ns a field that holds the place, 3 ns one
+/// that doesn't.
+InteractionSample SampleInteraction(const InteractionSnapshot& snapshot, Vec2d place);
+
+/// The same for one field.
+InteractionSample SampleInteraction(const InteractionField& field, Vec2d place);
+
+}  // namespace onesea::sea
