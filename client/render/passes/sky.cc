@@ -81,16 +81,15 @@ void SkyPass::SetLight(const SkyLight& light) {
 }
 
 void SkyPass::SetHaze(const SkyLight& light) {
-  const double row = std::sqrt(0.02) * (SkyLight::kRows - 1);
+  // The lowest row that sky_at() reads, sharp: water lost in haze must have the colour of the sky
+  // that it meets, or the horizon shows as a line of dashes.
+  const double row = std::sqrt(0.004) * (SkyLight::kRows - 1);
   const auto below = static_cast<std::size_t>(row);
   const float share = static_cast<float>(row - std::floor(row));
-  std::vector<glm::vec3> haze(SkyLight::kColumns, glm::vec3(0.0f));
+  std::vector<glm::vec3> haze(SkyLight::kColumns);
   for (std::size_t column = 0; column < haze.size(); ++column) {
-    for (std::size_t level : {0, 1}) {  // the mean of sharp and 0.1 rad
-      const glm::vec3* at =
-          &light.radiance[(level * SkyLight::kRows + below) * SkyLight::kColumns + column];
-      haze[column] += 0.5f * glm::mix(at[0], at[SkyLight::kColumns], share);
-    }
+    const glm::vec3* at = &light.radiance[below * SkyLight::kColumns + column];
+    haze[column] = glm::mix(at[0], at[SkyLight::kColumns], share);
   }
   BindTexture(0, GL_TEXTURE_2D, haze_);
   glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB16F, SkyLight::kColumns, 1, 0, GL_RGB, GL_FLOAT,

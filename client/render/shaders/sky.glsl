@@ -1,7 +1,7 @@
 // Radiance of the sky. `sky_map`: x azimuth from the sun, y root of the elevation's sine,
 // z blur; see client/render/sky_light.h.
 uniform sampler3D sky_map;
-// Its row a degree above the horizon, between sharp and blurred.
+// Its lowest row.
 uniform sampler2D haze_map;
 
 const vec3 kSkyMapSize = vec3(256.0, 96.0, 4.0);
