@@ -60,7 +60,7 @@ class WaveSolver {
   virtual void Adopt(const WaveSolver& other) = 0;
 
   /// Everything that the next step depends on, for hashes and snapshots; Restore(State()) is the
-  /// identity, bit for bit.
+  /// identity, bit for bit. Planes of one float per cell, row-major; how many is the kind's affair.
   virtual std::vector<float> State() const = 0;
   virtual void Restore(std::span<const float> state) = 0;
 };

@@ -1,0 +1,73 @@
+#include "server/world/interaction_foam.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/base/real_math.h"
+
+namespace onesea::world {
+namespace {
+
+constexpr float kNoFoam = 1.0f / 512.0f;  // half of what 8 bits can tell
+
+}  // namespace
+
+InteractionFoam::InteractionFoam(const sea::CellRect& cells, const FoamOptions& options)
+    : cells_(cells),
+      options_(options),
+      shares_(cells.cells()),
+      next_(cells.cells()),
+      velocity_x_(cells.cells()),
+      velocity_y_(cells.cells()),
+      velocity_z_(cells.cells()) {}
+
+void InteractionFoam::Advance(double span_s, const WaveSolver& waves) {
+  const std::span<const float> height_m = waves.height_m();
+  float highest = 0.0f, foam = 0.0f;
+  for (std::size_t n = 0; n < shares_.size(); ++n) {
+    highest = std::max(highest, std::abs(height_m[n]));
+    foam = std::max(foam, shares_[n]);
+  }
+  // A slope is at most this, since it spans two cells.
+  if (foam == 0.0f && highest < options_.steep * cells_.cell_m / std::sqrt(2.0)) return;
+  waves.Velocity(velocity_x_, velocity_y_, velocity_z_);
+  for (int row = 0; row < cells_.rows; ++row) AdvanceRow(row, span_s, height_m);
+  shares_.swap(next_);
+}
+
+void InteractionFoam::AdvanceRow(int row, double span_s, std::span<const float> height_m) {
+  const int columns = cells_.columns, rows = cells_.rows;
+  const auto per_two_cells = static_cast<float>(0.5 / cells_.cell_m);
+  const auto cells_per_m_per_s = static_cast<float>(span_s / cells_.cell_m);
+  const auto keep = static_cast<float>(real::Exp(-span_s / options_.life_s));
+  const auto growth = static_cast<float>(options_.growth_per_s * span_s);
+  const auto steep = static_cast<float>(options_.steep);
+  const auto at = [&](int x, int y) { return static_cast<std::size_t>(y) * columns + x; };
+  const int south = std::max(row - 1, 0), north = std::min(row + 1, rows - 1);
+  for (int column = 0; column < columns; ++column) {
+    const int west = std::max(column - 1, 0), east = std::min(column + 1, columns - 1);
+    const std::size_t here = at(column, row);
+    // Where the water that is here now was.
+    const float from_x =
+        std::clamp(static_cast<float>(column) - cells_per_m_per_s * velocity_x_[here], 0.0f,
+                   static_cast<float>(columns - 1));
+    const float from_y = std::clamp(static_cast<float>(row) - cells_per_m_per_s * velocity_y_[here],
+                                    0.0f, static_cast<float>(rows - 1));
+    const int x = std::min(static_cast<int>(from_x), columns - 2);
+    const int y = std::min(static_cast<int>(from_y), rows - 2);
+    const float wx = from_x - static_cast<float>(x), wy = from_y - static_cast<float>(y);
+    const float* low = &shares_[at(x, y)];
+    const float* high = low + columns;
+    const float on_low = low[0] + wx * (low[1] - low[0]);
+    const float on_high = high[0] + wx * (high[1] - high[0]);
+    float share = keep * (on_low + wy * (on_high - on_low));
+    const float slope_x = per_two_cells * (height_m[at(east, row)] - height_m[at(west, row)]);
+    const float slope_y =
+        per_two_cells * (height_m[at(column, north)] - height_m[at(column, south)]);
+    const float square = slope_x * slope_x + slope_y * slope_y;
+    if (square > steep * steep) share += growth * (std::sqrt(square) - steep);
+    next_[here] = share < kNoFoam ? 0.0f : std::min(share, 1.0f);
+  }
+}
+
+}  // namespace onesea::world

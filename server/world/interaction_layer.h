@@ -1,0 +1,110 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "common/base/vec.h"
+#include "common/sea/interaction_field.h"
+#include "common/sea/terrain.h"
+#include "server/world/interaction_foam.h"
+#include "server/world/region_layout.h"
+#include "server/world/wave_solver.h"
+
+/// The interaction layer of a session: regions of waves that add to the spectral sea.
+///
+/// A tick: Place(asks) where bodies and people want regions; deposits; Step(); Snapshot().
+///
+/// A region that moves, grows, merges or splits is a new one that adopts the waves of the old ones,
+/// each cell's once: that happens every few seconds and costs a millisecond or so (over terrain
+/// 50 ms), so no wrap-around storage is needed. What leaves a region is absorbed by its border.
+///
+/// Regions that overlap without merging stand side by side: heights add, which is right since the
+/// equations are linear, and each deposit enters exactly one of them, that in which its place lies
+/// furthest from the border. (kShallowWater's shore is not linear: give it disjoint places.)
+///
+/// Deterministic: same asks, deposits and order, same bits. Not thread-safe; snapshots are.
+namespace onesea::world {
+
+struct InteractionOptions {
+  double step_s = 1.0 / 60.0;
+  double depth_m = 0.0;  ///< of regions beside terrain; 0 = deep
+  std::shared_ptr<const sea::Terrain> terrain = {};
+  double damping_per_s = 0.02;
+  int edge_cells = 16;
+  FoamOptions foam = {};
+};
+
+/// One region's forcing for the next step, to be filled cell by cell; (rows x columns) each.
+struct RegionForcing {
+  sea::CellRect cells;
+  std::span<float> source_m, pressure_head_m, solid, rest_height_m;
+};
+
+/// Everything that the next step depends on.
+struct InteractionState {
+  struct RegionState {
+    Region region;
+    std::vector<float> waves;  ///< WaveSolver::State
+    std::vector<float> foam;   ///< (rows x columns)
+  };
+  std::int64_t steps = 0;
+  std::vector<PlacedAsk> asks;
+  std::vector<RegionState> regions;
+};
+
+class InteractionLayer {
+ public:
+  explicit InteractionLayer(InteractionOptions options);
+  ~InteractionLayer();
+
+  /// Lays out the regions anew; deposits into regions that change are lost. Asks that are invalid
+  /// or whose solver can't be made (no water there, too many sub-steps) go without a region: the
+  /// first such error is returned, the others are placed all the same. Cheap where nothing changes.
+  absl::Status Place(std::span<const RegionAsk> asks);
+
+  std::vector<Region> regions() const;
+
+  /// The forcing of the region in which this place lies furthest from the border, or null. Valid
+  /// until the next Place.
+  const RegionForcing* ForcingAt(Vec2d place);
+
+  /// Adds water [m³] over a disc as (1 - r²/R²)², R at least 1.5 cells; what is added is
+  /// `volume_m3` exactly but for rounding. False: no region there.
+  bool AddSource(Vec2d place, double radius_m, double volume_m3);
+  /// Presses with `force_n` on the surface during the next step, spread likewise.
+  bool AddPressure(Vec2d place, double radius_m, double force_n);
+  /// Holds the surface at `rest_height_m` over a disc during the next step.
+  bool AddSolid(Vec2d place, double radius_m, double rest_height_m);
+  /// Foam that turbulence makes: `share` of the surface at once, spread likewise.
+  bool AddFoam(Vec2d place, double radius_m, double share);
+
+  /// Advances all regions by step_s and forgets the deposits.
+  void Step();
+
+  /// `velocities` costs another 0.1 ms a region of 256 x 256.
+  std::shared_ptr<const sea::InteractionSnapshot> Snapshot(std::int64_t tick,
+                                                           bool velocities) const;
+
+  InteractionState State() const;
+  /// InvalidArgument: regions that cannot be made or states of another size. The layer is then
+  /// empty.
+  absl::Status Restore(const InteractionState& state);
+  std::uint64_t Hash() const;
+
+ private:
+  struct Grid;
+  absl::StatusOr<std::unique_ptr<Grid>> MakeGrid(const Region& region) const;
+  Grid* BestAt(Vec2d place);
+  /// Moves the waves of grids that are no more to those that are.
+  void AdoptFrom(std::vector<std::unique_ptr<Grid>>& dropped);
+
+  InteractionOptions options_;
+  std::int64_t steps_ = 0;
+  std::vector<PlacedAsk> asks_;
+  std::vector<std::unique_ptr<Grid>> grids_;
+};
+
+}  // namespace onesea::world

@@ -1,0 +1,115 @@
+#include "server/world/region_layout.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "common/base/limits.h"
+#include "common/base/range_check.h"
+
+namespace onesea::world {
+namespace {
+
+int RoundedUp(int cells) {
+  return (cells + kRegionSideStep - 1) / kRegionSideStep * kRegionSideStep;
+}
+
+std::int64_t SnappedStart(double centre_cells, int cells) {
+  const double steps = (centre_cells - 0.5 * cells) / kRegionSideStep;
+  return static_cast<std::int64_t>(std::floor(steps + 0.5)) * kRegionSideStep;
+}
+
+bool StillNear(double centre_cells, std::int64_t start, int cells) {
+  return std::abs(centre_cells - (static_cast<double>(start) + 0.5 * cells)) <= kStayCells;
+}
+
+double Area(const sea::CellRect& cells) { return static_cast<double>(cells.cells()); }
+
+bool CanMerge(const Region& a, const Region& b) {
+  if (a.kind != b.kind || a.cells.cell_m != b.cells.cell_m) return false;
+  const sea::CellRect common = sea::Intersection(a.cells, b.cells);
+  if (common.cells() == 0) return false;
+  const sea::CellRect whole = sea::BoundingRect(a.cells, b.cells);
+  const double covered = Area(a.cells) + Area(b.cells) - Area(common);
+  return whole.columns <= kRegionSideMax && whole.rows <= kRegionSideMax &&
+         Area(whole) <= kMergeExcessMax * covered;
+}
+
+}  // namespace
+
+absl::Status ValidateRegionAsk(const RegionAsk& ask) {
+  switch (ask.kind) {
+    case SolverKind::kIwave:
+    case SolverKind::kWaveEquation:
+    case SolverKind::kShallowWater:
+      break;
+    default:
+      return absl::InvalidArgumentError(
+          absl::StrCat("region.kind = ", static_cast<int>(ask.kind), " is not a solver"));
+  }
+  if (absl::Status s = CheckInRange("region.cell_m", ask.cell_m, kRegionCellMinM, kRegionCellMaxM);
+      !s.ok()) {
+    return s;
+  }
+  for (const auto& [name, value] :
+       {std::pair("region.columns", ask.columns), std::pair("region.rows", ask.rows)}) {
+    if (absl::Status s = CheckInRange(name, value, kRegionSideMin, kRegionSideMax); !s.ok()) {
+      return s;
+    }
+  }
+  for (const auto& [name, value] : {std::pair("region.centre.x", ask.centre_m.x),
+                                    std::pair("region.centre.y", ask.centre_m.y)}) {
+    if (absl::Status s = CheckInRange(name, value, -kQueryCoordinateMaxM, kQueryCoordinateMaxM);
+        !s.ok()) {
+      return s;
+    }
+  }
+  return absl::OkStatus();
+}
+
+std::vector<PlacedAsk> SnapAsks(std::span<const RegionAsk> asks,
+                                std::span<const PlacedAsk> before) {
+  std::vector<PlacedAsk> placed;
+  placed.reserve(asks.size());
+  for (const RegionAsk& ask : asks) {
+    const int columns = RoundedUp(ask.columns), rows = RoundedUp(ask.rows);
+    const double x = ask.centre_m.x / ask.cell_m, y = ask.centre_m.y / ask.cell_m;
+    sea::CellRect cells{.west = SnappedStart(x, columns),
+                        .south = SnappedStart(y, rows),
+                        .columns = columns,
+                        .rows = rows,
+                        .cell_m = ask.cell_m};
+    for (const PlacedAsk& old : before) {
+      if (old.id == ask.id && old.kind == ask.kind && old.cells.cell_m == ask.cell_m &&
+          old.cells.columns == columns && old.cells.rows == rows &&
+          StillNear(x, old.cells.west, columns) && StillNear(y, old.cells.south, rows)) {
+        cells = old.cells;
+      }
+    }
+    placed.push_back({ask.id, ask.kind, cells});
+  }
+  return placed;
+}
+
+std::vector<Region> LayOut(std::span<const PlacedAsk> asks) {
+  std::vector<Region> regions;
+  for (const PlacedAsk& ask : asks) {
+    regions.push_back({ask.kind, ask.cells});
+    // A region that has grown may now reach others, so begin again until nothing changes.
+    for (bool merged = true; merged;) {
+      merged = false;
+      for (std::size_t i = 0; i < regions.size() && !merged; ++i) {
+        for (std::size_t j = i + 1; j < regions.size() && !merged; ++j) {
+          if (!CanMerge(regions[i], regions[j])) continue;
+          regions[i].cells = sea::BoundingRect(regions[i].cells, regions[j].cells);
+          regions.erase(regions.begin() + static_cast<std::ptrdiff_t>(j));
+          merged = true;
+        }
+      }
+    }
+    if (regions.size() > kRegionsMax) regions.pop_back();
+  }
+  return regions;
+}
+
+}  // namespace onesea::world
