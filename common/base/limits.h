@@ -85,7 +85,7 @@ inline constexpr std::int64_t kTickMax =
     3'200'000'000'000;                                 // a century at 1000 Hz; see IsTickInRange
 inline constexpr std::int64_t kStepTicksMax = 36'000;  // ten minutes at 60 Hz in one request
 inline constexpr std::int64_t kRecipeBytesMax = 16 * 1024;
-inline constexpr std::int64_t kSpectrumFileBytesMax = 64 * 1024 * 1024;  // also when unpacked
+inline constexpr std::int64_t kReadFileBytesMax = 64 * 1024 * 1024;  // of one file; also unpacked
 inline constexpr int kSpectrumRecordsMax = 100'000;  // eleven years of hourly spectra
 inline constexpr int kSpectrumPlacesMax = 100'000;   // of one model output file
 

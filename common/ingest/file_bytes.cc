@@ -15,10 +15,10 @@
 namespace onesea::ingest {
 namespace {
 
-constexpr std::size_t kBytesMax = static_cast<std::size_t>(kSpectrumFileBytesMax);
+constexpr std::size_t kBytesMax = static_cast<std::size_t>(kReadFileBytesMax);
 
 std::string TooLarge(absl::string_view what) {
-  return absl::StrCat(what, " is larger than ", kSpectrumFileBytesMax, " bytes, the limit");
+  return absl::StrCat(what, " is larger than ", kReadFileBytesMax, " bytes, the limit");
 }
 
 struct EndInflate {

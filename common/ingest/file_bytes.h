@@ -5,7 +5,7 @@
 #include "absl/status/statusor.h"
 #include "absl/strings/string_view.h"
 
-/// Bytes of a file, plain or gzip, within kSpectrumFileBytesMax both before and after
+/// Bytes of a file, plain or gzip, within kReadFileBytesMax both before and after
 /// decompression.
 namespace onesea::ingest {
 

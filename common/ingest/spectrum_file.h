@@ -23,7 +23,7 @@ namespace onesea::ingest {
 /// Records in order of time, those of one time in the file's order. Those without energy are left
 /// out; at least one is returned. NotFound: no such file (also: the density file that belongs to a
 /// directional one). InvalidArgument: with file, line, field, value and limit. Files larger than
-/// kSpectrumFileBytesMax, also when unpacked, are refused.
+/// kReadFileBytesMax, also when unpacked, are refused.
 absl::StatusOr<std::vector<SpectrumRecord>> ReadSpectrumFile(const std::string& path);
 
 /// The same from memory. The first file is the one that was named; of the others those that belong
