@@ -12,7 +12,7 @@
 ///   ESRI ASCII   header ncols, nrows, xllcorner or xllcenter, yllcorner or yllcenter, cellsize (or
 ///                dx and dy), NODATA_value (optional), in any order and case; then nrows x ncols
 ///                numbers, the northern row first
-///   XYZ          x y z a line, blanks, tabs, commas or semicolons between them, # starts a comment;
+///   XYZ          x y z a line, blanks, tabs, commas or semicolons between, # starts a comment;
 ///                any order, on a regular grid that needn't be full
 ///
 /// Either may be packed with gzip.

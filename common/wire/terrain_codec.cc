@@ -32,12 +32,11 @@ float FromSteps(std::uint32_t number, int steps_per_m) {
   return static_cast<float>(static_cast<std::int32_t>(number) / static_cast<double>(steps_per_m));
 }
 
-// The number of steps, if it gives back every bit.
+// The number of steps, if it gives back the value.
 bool ToSteps(float value, int steps_per_m, std::uint32_t& number) {
   number = static_cast<std::uint32_t>(
       static_cast<std::int32_t>(std::lround(double{value} * steps_per_m)));
-  return std::bit_cast<std::uint32_t>(FromSteps(number, steps_per_m)) ==
-         std::bit_cast<std::uint32_t>(value);
+  return FromSteps(number, steps_per_m) == value;
 }
 
 bool AllToSteps(const std::vector<float>& values, int steps_per_m,

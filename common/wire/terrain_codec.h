@@ -6,8 +6,8 @@
 #include "absl/status/statusor.h"
 #include "common/sea/terrain.h"
 
-/// Terrain as bytes (proto onesea.v1.Terrain; WIRE.md, "Terrain"). A round trip keeps every bit of
-/// every sample; whole centimetres and the like take about a third of the bytes of others.
+/// Terrain as bytes (proto onesea.v1.Terrain; WIRE.md, "Terrain"). A round trip keeps every sample
+/// exactly (but -0 may become 0); whole centimetres and the like take far fewer bytes than others.
 namespace onesea::wire {
 
 /// Pre: ValidateTerrain(terrain) is OK. Cost: about 20 ns a sample, once.

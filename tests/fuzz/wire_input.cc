@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "common/base/check.h"
+#include "common/wire/terrain_codec.h"
 #include "common/wire/tile_encoder.h"
 #include "common/wire/tile_store.h"
 
@@ -47,6 +48,12 @@ void CheckTiles(std::string_view blob) {
   for (const float foam : store.fields()[0].foam) ONESEA_CHECK(foam >= 0.0F && foam <= 1.0F);
 }
 
+void CheckTerrain(std::string_view bytes) {
+  const auto terrain = wire::DecodeTerrain(bytes);
+  ONESEA_CHECK(terrain.ok() ? sea::ValidateTerrain(*terrain).ok()
+                            : !terrain.status().message().empty());
+}
+
 }  // namespace
 
 void DecodeAndCheck(std::string_view input) {
@@ -54,6 +61,7 @@ void DecodeAndCheck(std::string_view input) {
   const char choice = input.front();
   input.remove_prefix(1);
   if (choice == 0) CheckTiles(input);
+  if (choice == 'T') CheckTerrain(input);
 }
 
 }  // namespace onesea::fuzz

@@ -5,7 +5,8 @@
 /// What a client decodes, from bytes that nobody vouches for.
 namespace onesea::fuzz {
 
-/// The first byte chooses: 0 a blob of tiles, for a viewer that holds the first frames of a sea.
+/// The first byte chooses: 0 a blob of tiles, for a viewer that holds the first frames of a sea;
+/// 'T' a terrain.
 /// Aborts where what is accepted breaks its promises.
 void DecodeAndCheck(std::string_view input);
 

@@ -133,7 +133,8 @@ TEST(Xyz, AnyOrderOfARegularGridWillDo) {
   }
 }
 
-// Oracle: WGS 84 at 42° north has 111,073 m in a degree of latitude and 82,854 m in one of longitude.
+// Oracle: WGS 84 at 42° north has 111,073 m in a degree of latitude, 82,854 m in one of
+// longitude.
 TEST(Xyz, DegreesBecomeMetresAroundTheOrigin) {
   std::vector<std::string> lines;
   for (int j = 0; j < 40; ++j) {

@@ -9,6 +9,7 @@
 #include "common/wire/frame.h"
 #include "common/wire/proto_query.h"
 #include "common/wire/recipe_codec.h"
+#include "common/wire/terrain_codec.h"
 #include "onesea/v1/frame.pb.h"
 
 namespace onesea::wire {
@@ -37,7 +38,7 @@ class WireVectors : public ::testing::Test {
   std::map<std::string, std::string> vectors = ReadVectors();
 };
 
-TEST_F(WireVectors, AllAreThere) { EXPECT_EQ(vectors.size(), 8u); }
+TEST_F(WireVectors, AllAreThere) { EXPECT_EQ(vectors.size(), 9u); }
 
 TEST_F(WireVectors, Stamp) {
   Frame frame;
@@ -122,6 +123,18 @@ TEST_F(WireVectors, Recipe) {
   EXPECT_EQ(recipe.timeline[0].sea.regular_waves[0].amplitude_m, 0.5);
   EXPECT_EQ(recipe.timeline[0].sea.regular_waves[0].period_s, 8.0);
   EXPECT_EQ(EncodeRecipe(recipe), Bytes("recipe"));
+}
+
+// Decoded only: the packed bytes are those of one version of Zstandard.
+TEST_F(WireVectors, Terrain) {
+  const auto terrain = DecodeTerrain(Bytes("terrain"));
+  ASSERT_TRUE(terrain.ok()) << terrain.status();
+  EXPECT_EQ(terrain->west_m, -5.0);
+  EXPECT_EQ(terrain->south_m, 10.0);
+  EXPECT_EQ(terrain->cell_m, 2.5);
+  EXPECT_EQ(terrain->columns, 3);
+  EXPECT_EQ(terrain->rows, 2);
+  EXPECT_EQ(terrain->elevation_m, (std::vector<float>{-4.5f, -4.25f, -4.0f, -3.0f, -0.75f, 1.5f}));
 }
 
 }  // namespace
