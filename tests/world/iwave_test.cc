@@ -127,5 +127,46 @@ TEST(Iwave, WavesShoalByLinearTheory) {
   }
 }
 
+// Oracle: Snell. A wave of 4 s that runs at 28.98° to the slope over 8 m (30° in deep water) turns
+// to 18.95° over 2 m, where it is 16.23 m long. Directions and lengths are read from the phases of
+// neighbouring cells.
+TEST(Iwave, WavesTurnTowardsTheShoreBySnell) {
+  const double omega = 2.0 * kPi / 4.0, ky = 0.2595528 * std::sin(28.98129 * kPi / 180.0);
+  const Slope slope{.from_m = 120.0, .to_m = 280.0, .deep_m = 8.0, .shallow_m = 2.0};
+  SolverSpec spec = Region(SolverKind::kIwave, 192, 256, 2.0, 0.0);
+  spec.step_s = 1.0 / 15.0;
+  spec.terrain = SlopedBottom(slope, 384.0);
+  const auto solver = Solver(spec);
+  std::vector<float> head(spec.cells.cells());
+  std::vector<float> records[6];
+  const int steps = static_cast<int>(110.0 / spec.step_s);
+  for (int n = 0; n < steps; ++n) {
+    const double t = n * spec.step_s;
+    const double ramp = std::min(t / 8.0, 1.0) * std::clamp((40.0 - t) / 8.0, 0.0, 1.0);
+    for (std::size_t at = 0; at < head.size() && ramp >= 0.0; ++at) {
+      const double x = 2.0 * static_cast<double>(at % 192) - 50.0;
+      const double y = 2.0 * (static_cast<double>(at / 192) - 98.0);
+      if (std::abs(x) > 32.0) continue;
+      head[at] = static_cast<float>(0.1 * ramp * std::exp(-x * x / 64.0 - y * y / 6400.0) *
+                                    std::sin(omega * t - ky * y));
+    }
+    solver->Step({.pressure_head_m = head});
+    const int places[6][2] = {{48, 110}, {49, 110}, {48, 111}, {150, 148}, {151, 148}, {150, 149}};
+    for (int m = 0; m < 6; ++m) records[m].push_back(At(*solver, places[m][0], places[m][1]));
+  }
+  const auto wave = [&](int first) {
+    std::complex<double> parts[3];
+    for (int m = 0; m < 3; ++m) parts[m] = Component(records[first + m], omega * spec.step_s);
+    return Vec2d{-std::arg(parts[1] / parts[0]) / 2.0, -std::arg(parts[2] / parts[0]) / 2.0};
+  };
+  const Vec2d deep = wave(0), shallow = wave(3);
+  const auto degrees = [](Vec2d k) { return std::atan2(k.y, k.x) * 180.0 / kPi; };
+  std::printf("8 m: %.2f degrees, %.2f m; 2 m: %.2f degrees, %.2f m\n", degrees(deep),
+              2.0 * kPi / Norm(deep), degrees(shallow), 2.0 * kPi / Norm(shallow));
+  EXPECT_NEAR(degrees(deep), 28.98, 1.0);
+  EXPECT_NEAR(degrees(shallow), 18.95, 1.0);
+  EXPECT_NEAR(2.0 * kPi / Norm(shallow), 16.2257, 0.03 * 16.2257);
+}
+
 }  // namespace
 }  // namespace onesea::world
