@@ -174,11 +174,26 @@ HydrodynamicWrench ComputeWrench(const BodyModel& model, const BodyState& state,
   return {turn * Linear(wrench) - gravity, turn * Angular(wrench), loads.added};
 }
 
-Mat6 EffectiveMass(const BodyModel& model, const BodyLoads& loads) {
+Mat6 MassNow(const BodyModel& model, const BodyState& state) {
   Mat6 out = model.rigid_mass;
-  AddTo(out, 0.5, loads.added);
-  AddTo(out, 0.5, loads.added_before);
+  AddTo(out, 1.0, Added(model, state.immersion, state.submersion));
   return out;
+}
+
+bool ApplyImpulse(const BodyModel& model, Vec3d impulse_n_s, Vec3d place_m, BodyState& state) {
+  const Mat3d turn = ToMatrix(state.pose.turn);
+  const Vec3d arm = place_m - state.pose.centre_m;
+  Vec6 change =
+      Join(turn.TransposeTimes(impulse_n_s), turn.TransposeTimes(Cross(arm, impulse_n_s)));
+  if (!SolveInPlace(MassNow(model, state), change)) return false;
+  Vec3d linear = state.velocity_m_per_s + turn * Linear(change);
+  Vec3d angular = state.spin_rad_per_s + turn * Angular(change);
+  if (!IsFinite(linear) || !IsFinite(angular)) return false;
+  Cut(kBodySpeedMaxMPerS, linear);
+  Cut(kBodySpinMaxRadPerS, angular);
+  state.velocity_m_per_s = linear;
+  state.spin_rad_per_s = angular;
+  return true;
 }
 
 bool AdvanceVelocity(const BodyModel& model, const BodyLoads& loads, Vec3d force_n,

@@ -55,8 +55,12 @@ struct HydrodynamicWrench {
 HydrodynamicWrench ComputeWrench(const BodyModel& model, const BodyState& state,
                                  const WaterPatch& water, const Air& air, WetScratch& scratch);
 
-/// Mass and added mass: what an impulse meets now.
-Mat6 EffectiveMass(const BodyModel& model, const BodyLoads& loads);
+/// Mass and added mass of the step before, body axes: what an impulse meets now.
+Mat6 MassNow(const BodyModel& model, const BodyState& state);
+
+/// Changes the velocity at once by an impulse at a place, both in the world. False, and nothing
+/// changed, where the result is not finite.
+bool ApplyImpulse(const BodyModel& model, Vec3d impulse_n_s, Vec3d place_m, BodyState& state);
 
 /// One step of the velocity under `loads` and an external force and torque (world axes, about the
 /// centre of mass):

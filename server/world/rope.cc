@@ -1,0 +1,67 @@
+#include "server/world/rope.h"
+
+#include "absl/strings/str_cat.h"
+#include "common/base/limits.h"
+#include "common/base/range_check.h"
+
+namespace onesea::world {
+namespace {
+
+Vec3d VelocityAt(const RopeBody& body) {
+  if (body.state == nullptr) return {};
+  return body.state->velocity_m_per_s +
+         Cross(body.state->spin_rad_per_s, body.at_m - body.state->pose.centre_m);
+}
+
+// Speed that a unit impulse along `direction` gives the point.
+double Mobility(const RopeBody& body, Vec3d direction) {
+  if (body.model == nullptr) return 0.0;
+  const Mat3d turn = ToMatrix(body.state->pose.turn);
+  const Vec3d arm = body.at_m - body.state->pose.centre_m;
+  const Vec6 row = Join(turn.TransposeTimes(direction), turn.TransposeTimes(Cross(arm, direction)));
+  Vec6 change = row;
+  return SolveInPlace(MassNow(*body.model, *body.state), change) ? Dot(row, change) : 0.0;
+}
+
+}  // namespace
+
+absl::Status ValidateRope(const RopeSpec& spec) {
+  for (const RopeEnd* end : {&spec.from, &spec.to}) {
+    for (double value : {end->point_m.x, end->point_m.y, end->point_m.z}) {
+      const absl::Status s =
+          CheckInRange("rope.point_m", value, -kQueryCoordinateMaxM, kQueryCoordinateMaxM);
+      if (!s.ok()) return s;
+    }
+  }
+  if (spec.from.body == spec.to.body) {
+    return absl::InvalidArgumentError("rope: both ends are on the same body, or on none");
+  }
+  for (const absl::Status& s :
+       {CheckAbove("rope.length_m", spec.length_m, 0.0, 1e4),
+        CheckAbove("rope.stiffness_n_per_m", spec.stiffness_n_per_m, 0.0, 1e9),
+        CheckInRange("rope.damping_n_s_per_m", spec.damping_n_s_per_m, 0.0, 1e9)}) {
+    if (!s.ok()) return s;
+  }
+  return absl::OkStatus();
+}
+
+double PullRope(const RopeSpec& spec, const RopeBody& from, const RopeBody& to, double step_s) {
+  const Vec3d along = to.at_m - from.at_m;
+  const double length = Norm(along);
+  const double stretch = length - spec.length_m;
+  if (!(stretch > 0.0)) return 0.0;
+  const Vec3d direction = (1.0 / length) * along;
+  const double parting = Dot(VelocityAt(to) - VelocityAt(from), direction);
+  const double mobility = Mobility(from, direction) + Mobility(to, direction);
+  // Backward Euler of T = k stretch + c parting.
+  const double rate = spec.damping_n_s_per_m + step_s * spec.stiffness_n_per_m;
+  const double tension =
+      (spec.stiffness_n_per_m * stretch + rate * parting) / (1.0 + step_s * rate * mobility);
+  if (!(tension > 0.0)) return 0.0;
+  const Vec3d impulse = (tension * step_s) * direction;
+  if (from.model != nullptr) ApplyImpulse(*from.model, impulse, from.at_m, *from.state);
+  if (to.model != nullptr) ApplyImpulse(*to.model, -1.0 * impulse, to.at_m, *to.state);
+  return tension;
+}
+
+}  // namespace onesea::world
