@@ -15,9 +15,10 @@
 /// All bodies of a session: water, ropes, collisions.
 ///
 /// Each step, for every body in order of id: forces of the water, new velocity (body_loads.h),
-/// ropes; then Bullet finds contacts and changes velocities of those that touch. A body that touches
-/// nothing is moved by our own integration alone. In contacts a body has the mean of its added
-/// masses and the diagonal of its inertia: impacts share momentum by those, not by the full matrix.
+/// ropes; then Bullet finds contacts and changes velocities of those that touch. A body that
+/// touches nothing is moved by our own integration alone. In contacts a body has the mean of its
+/// added masses and the diagonal of its inertia: impacts share momentum by those, not by the full
+/// matrix.
 /// Hulls collide as convex hulls of at most 90 of their vertices: hollows are filled.
 /// Bits: same commands and same binary, same bits; a Restore() of State() continues as the world
 /// that was Rebuild() at that tick.
