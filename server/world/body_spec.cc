@@ -41,16 +41,18 @@ bool IsPositive(const Mat6& a, double relative_shift) {
 absl::Status CheckMatrix(const std::string& field, const Mat6& a) {
   for (int i = 0; i < 6; ++i) {
     for (int j = 0; j < 6; ++j) {
-      if (absl::Status s =
-              CheckInRange(absl::StrCat(field, "[", i, "][", j, "]"), a[i][j], -1e15, 1e15);
-          !s.ok()) {
-        return s;
-      }
+      const absl::Status s =
+          CheckInRange(absl::StrCat(field, "[", i, "][", j, "]"), a[i][j], -1e15, 1e15);
+      if (!s.ok()) return s;
+    }
+  }
+  for (int i = 0; i < 6; ++i) {
+    for (int j = 0; j < i; ++j) {
       const double scale = std::sqrt(std::abs(a[i][i] * a[j][j]));
       if (!(std::abs(a[i][j] - a[j][i]) <= 1e-6 * scale + 1e-9)) {
-        return absl::InvalidArgumentError(absl::StrCat(field, " is not symmetric: [", i, "][", j,
-                                                       "] = ", a[i][j], ", [", j, "][", i,
-                                                       "] = ", a[j][i]));
+        return absl::InvalidArgumentError(absl::StrCat(field, " is not symmetric: [", j, "][", i,
+                                                       "] = ", a[j][i], ", [", i, "][", j,
+                                                       "] = ", a[i][j]));
       }
     }
   }

@@ -14,7 +14,7 @@ namespace onesea::world {
 /// T = rho D⁴ (kt n|n| - slope |n| V/D), V the water's speed into the disc: the straight line
 /// K_T = kt - slope J that measured open-water curves follow closely.
 struct ThrusterSpec {
-  Vec3d position_m;                ///< body frame
+  Vec3d position_m{};              ///< body frame
   Vec3d direction{1.0, 0.0, 0.0};  ///< of positive thrust on the body; unit length
   double diameter_m = 0.3;         ///< (0, 20]
   double turns_per_s_max = 20.0;   ///< (0, 200]
@@ -27,7 +27,7 @@ struct ThrusterSpec {
 /// F = rho/2 A U² 6.13 Λ/(Λ + 2.25) sin(angle of attack), across the blade.
 /// Source: Fujii's formula as in the MMG manoeuvring standard; no stall.
 struct RudderSpec {
-  Vec3d position_m;            ///< body frame, middle of the blade; its axis is the body's z
+  Vec3d position_m{};          ///< body frame, middle of the blade; its axis is the body's z
   double area_m2 = 0.1;        ///< (0, 1000]
   double aspect_ratio = 1.5;   ///< (0, 10] height over chord
   double angle_rad_max = 0.6;  ///< (0, π/2]
