@@ -1,0 +1,149 @@
+#include "common/sea/attenuation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "common/base/check.h"
+#include "common/base/real_math.h"
+#include "common/sea/constants.h"
+
+namespace onesea::sea {
+namespace {
+
+constexpr int kDirections = Attenuation::kDirections;
+// Water shallower than this lets less than all through, none at the shore [m].
+constexpr double kBarDepthM = 0.5;
+
+struct Place {
+  int cell;
+  double fraction;
+};
+
+Place Locate(double cells, int samples) {
+  const double clamped = std::clamp(cells, 0.0, static_cast<double>(samples - 1));
+  const int cell = std::min(static_cast<int>(clamped), samples - 2);
+  return {cell, clamped - cell};
+}
+
+// Adds variance to the two directions beside the wave's.
+void AddDirection(double kx, double ky, double variance_m2, double* sums_m2) {
+  const double turns = real::Atan2(ky, kx) / (2.0 * kPi);
+  const double place = (turns < 0.0 ? turns + 1.0 : turns) * kDirections;
+  const int low = std::min(static_cast<int>(place), kDirections - 1);
+  sums_m2[low] += (1.0 - (place - low)) * variance_m2;
+  sums_m2[(low + 1) % kDirections] += (place - low) * variance_m2;
+}
+
+}  // namespace
+
+double AttenuationGrid::At(Vec2d place, int plane) const {
+  const Place x = Locate((place.x - west_m) / cell_m, columns);
+  const Place y = Locate((place.y - south_m) / cell_m, rows);
+  const float* at = &factor[(static_cast<std::size_t>(y.cell) * columns + x.cell) * planes + plane];
+  const std::size_t up = static_cast<std::size_t>(columns) * planes;
+  const double south = at[0] + x.fraction * (double{at[planes]} - at[0]);
+  const double north = at[up] + x.fraction * (double{at[up + planes]} - at[up]);
+  return south + y.fraction * (north - south);
+}
+
+Attenuation::Attenuation(std::shared_ptr<const Components> components, const Terrain& terrain)
+    : components_(std::move(components)), shoaling_(*components_) {
+  const int side = std::max(terrain.columns, terrain.rows);
+  const int stride = (side - 1 + kSideMax - 1) / kSideMax;
+  shape_.west_m = terrain.west_m;
+  shape_.south_m = terrain.south_m;
+  shape_.cell_m = terrain.cell_m * stride;
+  shape_.columns = std::max(2, (terrain.columns - 1) / stride + 1);
+  shape_.rows = std::max(2, (terrain.rows - 1) / stride + 1);
+  shape_.planes = shoaling_.planes();
+  for (int j = 0; j < shape_.rows; ++j) {
+    for (int i = 0; i < shape_.columns; ++i) {
+      // The mean of what a coarse cell covers, so that a narrow wall still counts.
+      double sum_m = 0.0;
+      for (int b = 0; b < stride; ++b) {
+        for (int a = 0; a < stride; ++a) {
+          sum_m += terrain.ElevationAt({shape_.west_m + (i * stride + a) * terrain.cell_m,
+                                        shape_.south_m + (j * stride + b) * terrain.cell_m});
+        }
+      }
+      depth_m_.push_back(static_cast<float>(-sum_m / (stride * stride)));
+    }
+  }
+  arriving_.resize(depth_m_.size() * kDirections);
+  for (int direction = 0; direction < kDirections; ++direction) CarryAlong(direction);
+  SetShares();
+}
+
+// Every cell takes what its upstream neighbours have, line by line across the main axis of travel.
+void Attenuation::CarryAlong(int direction) {
+  const real::SinCosPair to = real::SinCos(2.0 * kPi * direction / kDirections);
+  const bool along_x = std::abs(to.cos) >= std::abs(to.sin);
+  const int lines = along_x ? shape_.columns : shape_.rows;
+  const int places = along_x ? shape_.rows : shape_.columns;
+  const double main = along_x ? to.cos : to.sin, side = along_x ? to.sin : to.cos;
+  const double shift = side / std::abs(main);  // cells aside for one line
+  std::vector<double> line(places, 1.0), next(places);
+  for (int n = 0; n < lines; ++n) {
+    const int l = main > 0.0 ? n : lines - 1 - n;
+    for (int p = 0; p < places; ++p) {
+      const double from = p - shift;
+      const int low = static_cast<int>(std::floor(from));
+      const auto value = [&](int at) { return at < 0 || at >= places ? 1.0 : line[at]; };
+      const double arriving = value(low) + (from - low) * (value(low + 1) - value(low));
+      const std::size_t cell = along_x ? static_cast<std::size_t>(p) * shape_.columns + l
+                                       : static_cast<std::size_t>(l) * shape_.columns + p;
+      next[p] = arriving * std::clamp(depth_m_[cell] / kBarDepthM, 0.0, 1.0);
+      arriving_[cell * kDirections + direction] = static_cast<float>(next[p]);
+    }
+    line.swap(next);
+  }
+}
+
+void Attenuation::SetShares() {
+  const std::size_t entries = components_->recipe.timeline.size();
+  direction_m2_.assign(shape_.planes * entries * kDirections, 0.0);
+  for (int plane = 0; plane < shape_.planes; ++plane) {
+    for (std::size_t m = 0; m < entries; ++m) {
+      double* sums_m2 = &direction_m2_[(plane * entries + m) * kDirections];
+      if (plane < static_cast<int>(components_->cascades.size())) {
+        const CascadeComponents& waves = components_->cascades[plane];
+        for (std::size_t n = 0; n < waves.i.size(); ++n) {
+          AddDirection(waves.kx_rad_per_m[n], waves.ky_rad_per_m[n], waves.variance_m2[m][n],
+                       sums_m2);
+        }
+      } else {
+        for (const RegularComponent& wave : components_->regular) {
+          AddDirection(wave.kx_rad_per_m, wave.ky_rad_per_m, wave.variance_m2[m], sums_m2);
+        }
+      }
+    }
+  }
+}
+
+AttenuationGrid Attenuation::At(std::span<const double> weights) const {
+  const std::size_t entries = components_->recipe.timeline.size();
+  const DepthFactors depth_factors = shoaling_.At(weights);
+  AttenuationGrid grid = shape_;
+  grid.factor.resize(depth_m_.size() * grid.planes);
+  for (int plane = 0; plane < grid.planes; ++plane) {
+    double share[kDirections] = {}, whole_m2 = 0.0;
+    for (std::size_t m = 0; m < entries; ++m) {
+      for (int t = 0; t < kDirections; ++t) {
+        share[t] += weights[m] * direction_m2_[(plane * entries + m) * kDirections + t];
+      }
+    }
+    for (const double m2 : share) whole_m2 += m2;
+    for (double& m2 : share) m2 = whole_m2 > 0.0 ? m2 / whole_m2 : 1.0 / kDirections;
+    for (std::size_t cell = 0; cell < depth_m_.size(); ++cell) {
+      double arriving = 0.0;
+      for (int t = 0; t < kDirections; ++t)
+        arriving += share[t] * arriving_[cell * kDirections + t];
+      grid.factor[cell * grid.planes + plane] = static_cast<float>(
+          depth_factors.At(plane, depth_m_[cell]) * std::sqrt(std::max(0.0, arriving)));
+    }
+  }
+  return grid;
+}
+
+}  // namespace onesea::sea
