@@ -43,18 +43,22 @@ class FlatIwave final : public PotentialSolver {
                   {.psi = &psi_, .uniform = static_cast<float>(SubstepS() / spec().cells.cell_m)});
   }
 
+  void PotentialChanged(WavePlane& phi) override { integral_.Apply(phi, psi_); }
+
   void Outflow(std::span<float> m_per_s) const override {
     const int columns = spec().cells.columns, rows = spec().cells.rows;
     const auto scale = static_cast<float>(1.0 / spec().cells.cell_m);
     for (int row = 0; row < rows; ++row) {
+      float* out = m_per_s.data() + static_cast<std::size_t>(row) * columns;
       const float* here = psi_.Row(row);
       const float* south = psi_.Row(std::max(row - 1, 0));
       const float* north = psi_.Row(std::min(row + 1, rows - 1));
-      for (int column = 0; column < columns; ++column) {
-        const float sum = here[std::max(column - 1, 0)] + here[std::min(column + 1, columns - 1)] +
-                          south[column] + north[column];
-        m_per_s[static_cast<std::size_t>(row) * columns + column] =
-            scale * (4.0f * here[column] - sum);
+      for (int n = 1; n + 1 < columns; ++n) {
+        out[n] = scale * (4.0f * here[n] - (here[n - 1] + here[n + 1] + south[n] + north[n]));
+      }
+      for (const int n : {0, columns - 1}) {
+        const float beside = here[n == 0 ? 1 : n - 1];
+        out[n] = scale * (3.0f * here[n] - (beside + south[n] + north[n]));
       }
     }
   }
@@ -109,24 +113,28 @@ class FacesIwave final : public PotentialSolver {
 
   void Advance(const GridPass& grid, const PotentialPass& potential) override {
     AdvancePotential(grid, potential);
-    FaceDifferences(*potential.phi, open_, difference_);
+    PotentialChanged(*potential.phi);
+    AdvanceHeightByFlow(grid, flow_, open_, static_cast<float>(SubstepS() / spec().cells.cell_m));
+  }
+
+  void PotentialChanged(WavePlane& phi) override {
+    FaceDifferences(phi, open_, difference_);
     integral_x_.Apply(difference_.x, flow_.x);
     integral_y_.Apply(difference_.y, flow_.y);
-    AdvanceHeightByFlow(grid, flow_, open_, static_cast<float>(SubstepS() / spec().cells.cell_m));
   }
 
   void Outflow(std::span<float> m_per_s) const override {
     const int columns = spec().cells.columns, rows = spec().cells.rows;
     const auto scale = static_cast<float>(1.0 / spec().cells.cell_m);
     for (int row = 0; row < rows; ++row) {
-      for (int column = 0; column < columns; ++column) {
-        const auto through = [&](const WavePlane& q, const WavePlane& open, int x, int y) {
-          return q.Row(y)[x] * open.Row(y)[x];  // zero in the margin
-        };
-        m_per_s[static_cast<std::size_t>(row) * columns + column] =
-            scale *
-            (through(flow_.x, open_.x, column - 1, row) - through(flow_.x, open_.x, column, row) +
-             through(flow_.y, open_.y, column, row - 1) - through(flow_.y, open_.y, column, row));
+      float* out = m_per_s.data() + static_cast<std::size_t>(row) * columns;
+      // The margins, west and south of the first cells, are zero.
+      const float *x = flow_.x.Row(row), *open_x = open_.x.Row(row);
+      const float *y = flow_.y.Row(row), *open_y = open_.y.Row(row);
+      const float *south = flow_.y.Row(row - 1), *open_south = open_.y.Row(row - 1);
+      for (int n = 0; n < columns; ++n) {
+        out[n] = scale * (x[n - 1] * open_x[n - 1] - x[n] * open_x[n] + south[n] * open_south[n] -
+                          y[n] * open_y[n]);
       }
     }
   }

@@ -10,36 +10,14 @@ constexpr int kBlock = 16;  // cells of a block's side: a vector, and several ti
 constexpr double kNodeMinCells = 0.25;
 constexpr double kNodeRatio = 1.41421356237309504880;  // √2
 
-ConvolveRange WholeOf(const WavePlane& plane) {
-  return {.last_column = plane.columns, .last_row = plane.rows};
+void Clear(const ConvolveRange& range, WavePlane& plane) {
+  for (int y = range.first_row; y < range.last_row; ++y) {
+    std::fill(plane.Row(y) + range.first_column, plane.Row(y) + range.last_column, 0.0f);
+  }
 }
 
-// Runs of blocks along y in which `active`, widened by `around` blocks, holds.
-std::vector<ConvolveRange> Runs(const WavePlane& plane, int around,
-                                const std::function<bool(int, int)>& active) {
-  const int across = (plane.columns + kBlock - 1) / kBlock;
-  const int along = (plane.rows + kBlock - 1) / kBlock;
-  const auto near = [&](int x, int y) {
-    for (int j = std::max(y - around, 0); j <= std::min(y + around, along - 1); ++j) {
-      for (int i = std::max(x - around, 0); i <= std::min(x + around, across - 1); ++i) {
-        if (active(i, j)) return true;
-      }
-    }
-    return false;
-  };
-  std::vector<ConvolveRange> runs;
-  for (int x = 0; x < across; ++x) {
-    for (int y = 0; y < along; ++y) {
-      if (!near(x, y)) continue;
-      ConvolveRange run{.first_column = x * kBlock,
-                        .last_column = std::min((x + 1) * kBlock, plane.columns),
-                        .first_row = y * kBlock};
-      while (y + 1 < along && near(x, y + 1)) ++y;
-      run.last_row = std::min((y + 1) * kBlock, plane.rows);
-      runs.push_back(run);
-    }
-  }
-  return runs;
+ConvolveRange WholeOf(const WavePlane& plane) {
+  return {.last_column = plane.columns, .last_row = plane.rows};
 }
 
 bool AnyInBlock(const WavePlane& plane, int block_x, int block_y) {
@@ -51,6 +29,69 @@ bool AnyInBlock(const WavePlane& plane, int block_x, int block_y) {
   }
   return false;
 }
+
+// Which blocks of a plane hold anything.
+class BlockMap {
+ public:
+  explicit BlockMap(const WavePlane& plane)
+      : plane_(&plane),
+        across_((plane.columns + kBlock - 1) / kBlock),
+        along_((plane.rows + kBlock - 1) / kBlock) {
+    for (int y = 0; y < along_; ++y) {
+      for (int x = 0; x < across_; ++x) any_.push_back(AnyInBlock(plane, x, y));
+    }
+  }
+
+  bool Active(int x, int y) const {
+    return x >= 0 && y >= 0 && x < across_ && y < along_ &&
+           any_[static_cast<std::size_t>(y) * across_ + x];
+  }
+  // Not active itself, but beside one that is.
+  bool Ring(int x, int y) const {
+    if (Active(x, y)) return false;
+    for (int n = 0; n < 9; ++n) {
+      if (Active(x + n % 3 - 1, y + n / 3 - 1)) return true;
+    }
+    return false;
+  }
+
+  std::vector<ConvolveRange> Strips() const {
+    std::vector<ConvolveRange> runs;
+    for (int x = 0; x < across_; ++x) {
+      for (int y = 0; y < along_; ++y) {
+        if (!Active(x, y)) continue;
+        const int first = y;
+        while (Active(x, y + 1)) ++y;
+        runs.push_back(Range(x, x, first, y));
+      }
+    }
+    return runs;
+  }
+  std::vector<ConvolveRange> Rows(bool (BlockMap::*has)(int, int) const) const {
+    std::vector<ConvolveRange> runs;
+    for (int y = 0; y < along_; ++y) {
+      for (int x = 0; x < across_; ++x) {
+        if (!(this->*has)(x, y)) continue;
+        const int first = x;
+        while (x + 1 < across_ && (this->*has)(x + 1, y)) ++x;
+        runs.push_back(Range(first, x, y, y));
+      }
+    }
+    return runs;
+  }
+
+ private:
+  ConvolveRange Range(int first_x, int last_x, int first_y, int last_y) const {
+    return {.first_column = first_x * kBlock,
+            .last_column = std::min((last_x + 1) * kBlock, plane_->columns),
+            .first_row = first_y * kBlock,
+            .last_row = std::min((last_y + 1) * kBlock, plane_->rows)};
+  }
+
+  const WavePlane* plane_;
+  int across_, along_;
+  std::vector<bool> any_;
+};
 
 // Weight of node n for a depth, both in the series kNodeMinCells kNodeRatio^n.
 double NodeWeight(const std::vector<double>& depths, std::size_t n, double depth) {
@@ -131,16 +172,18 @@ void TerrainIntegral::AddNode(const IwaveKernels& kernels, WavePlane weight) {
   for (int level = 0; level < kernels.levels; ++level) {
     Node node{.taps = kernels.taps[level],
               .root_weight = WavePlane(weight.columns, weight.rows),
-              .active = {},
+              .strips = {},
+              .rows = {},
               .around = {}};
     for (int y = 0; y < weight.rows; ++y) {
       for (int x = 0; x < weight.columns; ++x) {
         node.root_weight.Row(y)[x] = std::sqrt(weight.Row(y)[x] / ones_[level].Row(y)[x]);
       }
     }
-    const auto active = [&](int x, int y) { return AnyInBlock(node.root_weight, x, y); };
-    node.active = Runs(weight, 0, active);
-    node.around = Runs(weight, 1, active);
+    const BlockMap blocks(node.root_weight);
+    node.strips = blocks.Strips();
+    node.rows = blocks.Rows(&BlockMap::Active);
+    node.around = blocks.Rows(&BlockMap::Ring);
     levels_[level].nodes.push_back(std::move(node));
     if (level + 1 == kernels.levels) break;
     WavePlane coarse(weight.columns / 2, weight.rows / 2);
@@ -160,11 +203,14 @@ void TerrainIntegral::Apply(const WavePlane& in, WavePlane& out) {
     if (n > 0) fine = &level.in;
     for (int y = 0; y < sum.rows; ++y) std::fill_n(sum.Row(y), sum.columns, 0.0f);
     for (const Node& node : level.nodes) {
-      for (const ConvolveRange& range : node.around) {
+      for (const ConvolveRange& range : node.around) Clear(range, level.weighted);
+      for (const ConvolveRange& range : node.rows) {
         Weigh(*fine, node.root_weight, range, level.weighted);
       }
-      for (const ConvolveRange& range : node.active) {
+      for (const ConvolveRange& range : node.strips) {
         Convolve(level.weighted, node.taps, range, level.convolved);
+      }
+      for (const ConvolveRange& range : node.rows) {
         AddWeighed(level.convolved, node.root_weight, range, sum);
       }
     }

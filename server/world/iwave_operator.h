@@ -39,9 +39,10 @@ class TerrainIntegral {
  private:
   struct Node {
     IwaveTaps taps;
-    WavePlane root_weight;              // b_n on this level's grid
-    std::vector<ConvolveRange> active;  // where b_n is not zero
-    std::vector<ConvolveRange> around;  // and a block more on each side
+    WavePlane root_weight;  // b_n on this level's grid
+    // Where b_n is not zero, in blocks: strips for the convolution, which marches along y, and rows
+    // of blocks for the passes that stream. `around` is the ring of blocks that it reads beyond.
+    std::vector<ConvolveRange> strips, rows, around;
   };
   struct Level {
     WavePlane in, out;  // not used on level 0

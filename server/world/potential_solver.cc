@@ -5,6 +5,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "common/base/check.h"
+#include "common/base/limits.h"
 #include "common/base/real_math.h"
 #include "common/sea/constants.h"
 
@@ -149,27 +150,49 @@ void PotentialSolver::Velocity(std::span<float> x, std::span<float> y, std::span
   Outflow(z);
   const int columns = spec_.cells.columns, rows = spec_.cells.rows;
   const auto half_step = static_cast<float>(0.5 * sea::kGravity * SubstepS());
-  const auto scale = static_cast<float>(0.5 / spec_.cells.cell_m);
-  // The potential at the instant of the heights: it is half a step behind.
-  const auto potential = [&](int column, int row) {
-    return phi_.Row(row)[column] -
-           half_step * height_[static_cast<std::size_t>(row) * columns + column];
-  };
-  // Through the face between two cells; closed where there is land or the region ends.
-  const auto through = [&](int from_column, int from_row, int column, int row) {
-    if (from_column < 0 || from_row < 0 || column >= columns || row >= rows) return 0.0f;
-    if (!Wet(from_column, from_row) || !Wet(column, row)) return 0.0f;
-    return potential(column, row) - potential(from_column, from_row);
-  };
+  // The potential at the instant of the heights, since it is half a step behind; x holds it until
+  // both slopes are known.
   for (int row = 0; row < rows; ++row) {
-    for (int column = 0; column < columns; ++column) {
-      const std::size_t at = static_cast<std::size_t>(row) * columns + column;
-      x[at] =
-          scale * (through(column - 1, row, column, row) + through(column, row, column + 1, row));
-      y[at] =
-          scale * (through(column, row - 1, column, row) + through(column, row, column, row + 1));
+    const float* phi = phi_.Row(row);
+    const std::size_t at = static_cast<std::size_t>(row) * columns;
+    for (int n = 0; n < columns; ++n) x[at + n] = phi[n] - half_step * height_[at + n];
+  }
+  for (int row = 0; row < rows; ++row) SlopeAlongY(row, x, y);
+  for (int row = 0; row < rows; ++row) SlopeAlongX(row, x);
+}
+
+// The mean of both faces' slopes; 0 through the faces of land and of the region's rim.
+void PotentialSolver::SlopeAlongY(int row, std::span<const float> potential,
+                                  std::span<float> y) const {
+  const auto scale = static_cast<float>(0.5 / spec_.cells.cell_m);
+  const int columns = spec_.cells.columns;
+  const std::size_t at = static_cast<std::size_t>(row) * columns;
+  const std::size_t south = row > 0 ? at - columns : at;
+  const std::size_t north = row + 1 < spec_.cells.rows ? at + columns : at;
+  for (int n = 0; n < columns; ++n) {
+    float below = potential[at + n] - potential[south + n];
+    float above = potential[north + n] - potential[at + n];
+    if (HasLand()) {
+      below *= static_cast<float>(wet_[at + n] & wet_[south + n]);
+      above *= static_cast<float>(wet_[at + n] & wet_[north + n]);
+    }
+    y[at + n] = scale * (below + above);
+  }
+}
+
+void PotentialSolver::SlopeAlongX(int row, std::span<float> x) const {
+  const auto scale = static_cast<float>(0.5 / spec_.cells.cell_m);
+  const int columns = spec_.cells.columns;
+  const std::size_t at = static_cast<std::size_t>(row) * columns;
+  float across[kRegionSideMax + 1];  // the face to the west of each cell; 0 at both ends
+  across[0] = across[columns] = 0.0f;
+  for (int n = 1; n < columns; ++n) across[n] = x[at + n] - x[at + n - 1];
+  if (HasLand()) {
+    for (int n = 1; n < columns; ++n) {
+      across[n] *= static_cast<float>(wet_[at + n] & wet_[at + n - 1]);
     }
   }
+  for (int n = 0; n < columns; ++n) x[at + n] = scale * (across[n] + across[n + 1]);
 }
 
 std::vector<float> PotentialSolver::State() const {
@@ -188,6 +211,7 @@ void PotentialSolver::Restore(std::span<const float> state) {
   for (int row = 0; row < spec_.cells.rows; ++row, phi += spec_.cells.columns) {
     std::copy_n(phi, spec_.cells.columns, phi_.Row(row));
   }
+  PotentialChanged(phi_);
 }
 
 void PotentialSolver::Adopt(const WaveSolver& other) {
@@ -206,6 +230,7 @@ void PotentialSolver::Adopt(const WaveSolver& other) {
       phi_.Row(row)[column] += state[from.cells.cells() + source];
     }
   }
+  PotentialChanged(phi_);
 }
 
 }  // namespace onesea::world

@@ -49,8 +49,10 @@ class PotentialSolver : public WaveSolver {
 
   /// One sub-step of both fields.
   virtual void Advance(const GridPass& grid, const PotentialPass& potential) = 0;
-  /// Λφ of the last sub-step.
+  /// Λφ for the potential as it is: after the last sub-step, or PotentialChanged.
   virtual void Outflow(std::span<float> m_per_s) const = 0;
+  /// The potential was restored or adopted: what is derived from it is stale.
+  virtual void PotentialChanged(WavePlane& phi) = 0;
 
   double SubstepS() const { return spec_.step_s / substeps_; }
   /// Depth of still water [m] at a place in cells from the region's south-west cell; <= 0 on land.
@@ -65,6 +67,8 @@ class PotentialSolver : public WaveSolver {
   GridPass Grid();
   void AddSource(std::span<const float> source_m);
   void DrainRim();
+  void SlopeAlongX(int row, std::span<float> x) const;
+  void SlopeAlongY(int row, std::span<const float> potential, std::span<float> y) const;
   void HoldSolids(const StepForcing& forcing);
 
   SolverSpec spec_;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/base/check.h"
+#include "common/base/limits.h"
 #include "common/sea/constants.h"
 #include "server/world/potential_solver.h"
 
@@ -54,23 +55,29 @@ class WaveEquation final : public PotentialSolver {
     AdvanceBoth(grid, potential, Pass(potential.phi));
   }
 
+  void PotentialChanged(WavePlane&) override {}
+
   void Outflow(std::span<float> m_per_s) const override {
     const int columns = spec().cells.columns, rows = spec().cells.rows;
     const auto per_step = static_cast<float>(1.0 / SubstepS());
-    const auto through = [&](int column, int row, bool to_north) {
-      if (column < 0 || row < 0 || (to_north ? row + 1 >= rows : column + 1 >= columns)) {
-        return 0.0f;
-      }
-      const std::size_t at = kBefore + static_cast<std::size_t>(row) * columns + column;
-      const float conductance = east_ == nullptr ? uniform_ : to_north ? north_[at] : east_[at];
-      const float next = to_north ? phi().Row(row + 1)[column] : phi().Row(row)[column + 1];
-      return conductance * (next - phi().Row(row)[column]);
-    };
+    float west[kRegionSideMax + 1];  // what enters each cell from the west; 0 at both ends
+    west[0] = west[columns] = 0.0f;
+    std::fill(m_per_s.begin(), m_per_s.end(), 0.0f);
     for (int row = 0; row < rows; ++row) {
-      for (int column = 0; column < columns; ++column) {
-        const float gain = through(column - 1, row, false) - through(column, row, false) +
-                           through(column, row - 1, true) - through(column, row, true);
-        m_per_s[static_cast<std::size_t>(row) * columns + column] = per_step * gain;
+      const std::size_t at = static_cast<std::size_t>(row) * columns;
+      const float* here = phi().Row(row);
+      const float* north = phi().Row(row + 1);
+      const bool last = row + 1 == rows;
+      for (int n = 1; n < columns; ++n) {
+        const float face = east_ == nullptr ? uniform_ : east_[kBefore + at + n - 1];
+        west[n] = face * (here[n] - here[n - 1]);
+      }
+      for (int n = 0; n < columns; ++n) m_per_s[at + n] += per_step * (west[n] - west[n + 1]);
+      for (int n = 0; n < columns && !last; ++n) {
+        const float face = north_ == nullptr ? uniform_ : north_[kBefore + at + n];
+        const float flow = per_step * face * (north[n] - here[n]);
+        m_per_s[at + n] -= flow;
+        m_per_s[at + columns + n] += flow;
       }
     }
   }

@@ -49,6 +49,38 @@ BENCHMARK_CAPTURE(Step, iwave, SolverKind::kIwave, false)->Unit(benchmark::kMicr
 BENCHMARK_CAPTURE(Step, iwave_over_terrain, SolverKind::kIwave, true)
     ->Unit(benchmark::kMicrosecond);
 
+// What a region that moves costs once.
+void Build(benchmark::State& state, SolverKind kind, bool over_terrain) {
+  SolverSpec spec;
+  spec.kind = kind;
+  spec.cells = {.columns = kSide, .rows = kSide, .cell_m = 0.5};
+  spec.depth_m = kind == SolverKind::kIwave ? 0.0 : 3.0;
+  if (over_terrain) spec.terrain = Bay();
+  for (auto _ : state) {
+    auto solver = MakeSolver(spec);
+    ONESEA_CHECK(solver.ok()) << solver.status();
+    benchmark::DoNotOptimize(solver->get());
+  }
+}
+BENCHMARK_CAPTURE(Build, wave_equation_over_terrain, SolverKind::kWaveEquation, true)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(Build, iwave, SolverKind::kIwave, false)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(Build, iwave_over_terrain, SolverKind::kIwave, true)
+    ->Unit(benchmark::kMillisecond);
+
+void Velocities(benchmark::State& state) {
+  SolverSpec spec;
+  spec.cells = {.columns = kSide, .rows = kSide, .cell_m = 0.5};
+  auto solver = MakeSolver(spec);
+  ONESEA_CHECK(solver.ok()) << solver.status();
+  std::vector<float> x(spec.cells.cells()), y(x), z(x);
+  for (auto _ : state) {
+    (*solver)->Velocity(x, y, z);
+    benchmark::DoNotOptimize(x.data());
+  }
+}
+BENCHMARK(Velocities)->Unit(benchmark::kMicrosecond);
+
 // The published iWave loop: 169 taps a cell, row by row, with a border that is left out; scalar, as
 // it was written.
 #if defined(__GNUC__) && !defined(__clang__)

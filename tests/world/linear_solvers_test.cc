@@ -157,9 +157,46 @@ TEST_P(LinearSolver, RestoresToTheBit) {
   const auto other = Solver(GetParam().spec);
   other->Restore(state);
   EXPECT_EQ(other->State(), state);
+  const std::size_t cells = solver->height_m().size();
+  std::vector<float> x(cells), y(cells), z(cells), other_x(cells), other_y(cells), other_z(cells);
+  solver->Velocity(x, y, z);
+  other->Velocity(other_x, other_y, other_z);
+  EXPECT_EQ(x, other_x);
+  EXPECT_EQ(y, other_y);
+  EXPECT_EQ(z, other_z);
   RunSteps(*solver, 50);
   RunSteps(*other, 50);
   EXPECT_EQ(other->State(), solver->State());
+}
+
+// Oracle: what moved. The surface's vertical velocity is the change of height, and the horizontal
+// velocities are the potential's slopes: of a wave along x, in phase with the height.
+TEST_P(LinearSolver, VelocitiesAreThoseOfTheWater) {
+  const auto solver = Solver(Closed());
+  SetWaves(*solver, Hump(40, 48, 8.0), Nothing());
+  RunSteps(*solver, 20);
+  const std::size_t cells = solver->height_m().size();
+  std::vector<float> x(cells), y(cells), z(cells),
+      before(solver->height_m().begin(), solver->height_m().end());
+  solver->Step({});
+  solver->Velocity(x, y, z);
+  const std::vector<float> state = solver->State();
+  double greatest = 0.0;
+  for (int row = 2; row < 94; ++row) {
+    for (int column = 2; column < 126; ++column) {
+      const std::size_t at = static_cast<std::size_t>(row) * 128 + column;
+      const double rise = (solver->height_m()[at] - before[at]) / solver->spec().step_s;
+      ASSERT_NEAR(z[at], rise, 1e-3);
+      greatest = std::max(greatest, std::abs(rise));
+      if (column > 80) continue;  // no land there
+      const auto potential = [&](std::size_t n) {
+        return state[cells + n] - 0.5 * sea::kGravity * solver->spec().step_s * state[n];
+      };
+      ASSERT_NEAR(x[at], potential(at + 1) - potential(at - 1), 1e-3);
+      ASSERT_NEAR(y[at], potential(at + 128) - potential(at - 128), 1e-3);
+    }
+  }
+  EXPECT_GT(greatest, 0.1);
 }
 
 // Waves continue in a larger region as if they had always been there.
