@@ -19,7 +19,7 @@
 ///
 /// A region that moves, grows, merges or splits is a new one that adopts the waves of the old ones,
 /// each cell's once: that happens every few seconds and costs a millisecond or so (over terrain
-/// 50 ms), so no wrap-around storage is needed. What leaves a region is absorbed by its border.
+/// 20 ms), so no wrap-around storage is needed. What leaves a region is absorbed by its border.
 ///
 /// Regions that overlap without merging stand side by side: heights add, which is right since the
 /// equations are linear, and each deposit enters exactly one of them, that in which its place lies

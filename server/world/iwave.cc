@@ -79,15 +79,23 @@ class FacesIwave final : public PotentialSolver {
       : PotentialSolver(spec, substeps, BorderSpeed(spec, depth_m)),
         open_(MakeFaces(spec.cells)),
         difference_(MakeFaces(spec.cells)),
-        flow_(MakeFaces(spec.cells)),
-        integral_x_(MakeIntegral(0.5, 0.0)),
-        integral_y_(MakeIntegral(0.0, 0.5)) {
+        flow_(MakeFaces(spec.cells)) {
+    const FacePlanes depth{FaceDepths(0.5, 0.0), FaceDepths(0.0, 0.5)};
+    double least = kIwaveDeepCells, greatest = 0.0;  // of water
     for (int row = 0; row < spec.cells.rows; ++row) {
       for (int column = 0; column < spec.cells.columns; ++column) {
         open_.x.Row(row)[column] = Open(column, row, 0.5, 0.0) ? 1.0f : 0.0f;
         open_.y.Row(row)[column] = Open(column, row, 0.0, 0.5) ? 1.0f : 0.0f;
+        for (const double cells : {depth.x.Row(row)[column], depth.y.Row(row)[column]}) {
+          greatest = std::max(greatest, cells);
+          if (cells > 0.0) least = std::min(least, cells);
+        }
       }
     }
+    const IwaveNodes nodes = DesignIwaveNodes(least, greatest, StepNumber(spec, SubstepS()),
+                                              IwaveLevelsFor(spec.cells.columns, spec.cells.rows));
+    integral_x_ = std::make_unique<TerrainIntegral>(depth.x, nodes);
+    integral_y_ = std::make_unique<TerrainIntegral>(depth.y, nodes);
   }
 
  private:
@@ -97,18 +105,23 @@ class FacesIwave final : public PotentialSolver {
            Wet(east, north);
   }
 
-  TerrainIntegral MakeIntegral(double to_east, double to_north) const {
-    return TerrainIntegral(
-        spec().cells.columns, spec().cells.rows,
-        [&](int column, int row) {
-          // Faces of the rim carry nothing, but their depth weighs in the coarser levels.
-          const bool rim = column + (to_east > 0.0) >= spec().cells.columns ||
-                           row + (to_north > 0.0) >= spec().cells.rows;
-          if (!rim && !Open(column, row, to_east, to_north)) return 0.0;
-          if (spec().terrain == nullptr && spec().depth_m == 0.0) return kIwaveDeepCells;
-          return DepthAt(column + to_east, row + to_north) / spec().cells.cell_m;
-        },
-        StepNumber(spec(), SubstepS()));
+  // At the middle of each face. Faces of the rim carry nothing, but their depth weighs in the
+  // coarser levels.
+  WavePlane FaceDepths(double to_east, double to_north) const {
+    const sea::CellRect& cells = spec().cells;
+    const bool deep = spec().terrain == nullptr && spec().depth_m == 0.0;
+    WavePlane depths(cells.columns, cells.rows);
+    for (int row = 0; row < cells.rows; ++row) {
+      for (int column = 0; column < cells.columns; ++column) {
+        const bool rim =
+            column + (to_east > 0.0) >= cells.columns || row + (to_north > 0.0) >= cells.rows;
+        if (!rim && !Open(column, row, to_east, to_north)) continue;
+        const double depth_m = DepthAt(column + to_east, row + to_north);
+        depths.Row(row)[column] = static_cast<float>(
+            deep ? kIwaveDeepCells : std::clamp(depth_m / cells.cell_m, 0.0, kIwaveDeepCells));
+      }
+    }
+    return depths;
   }
 
   void Advance(const GridPass& grid, const PotentialPass& potential) override {
@@ -119,8 +132,8 @@ class FacesIwave final : public PotentialSolver {
 
   void PotentialChanged(WavePlane& phi) override {
     FaceDifferences(phi, open_, difference_);
-    integral_x_.Apply(difference_.x, flow_.x);
-    integral_y_.Apply(difference_.y, flow_.y);
+    integral_x_->Apply(difference_.x, flow_.x);
+    integral_y_->Apply(difference_.y, flow_.y);
   }
 
   void Outflow(std::span<float> m_per_s) const override {
@@ -142,7 +155,7 @@ class FacesIwave final : public PotentialSolver {
   FacePlanes open_;        // 1, or 0 where land or the rim closes the face
   FacePlanes difference_;  // of φ
   FacePlanes flow_;        // ∫u dz through the face, in cells
-  TerrainIntegral integral_x_, integral_y_;
+  std::unique_ptr<TerrainIntegral> integral_x_, integral_y_;
 };
 
 }  // namespace

@@ -95,23 +95,27 @@ void ConvolveStrips(const WavePlane& in, const IwaveTaps& taps, const ConvolveRa
   }
 }
 
-void WeighRange(const WavePlane& in, const WavePlane& weight, const ConvolveRange& range,
+void WeighRange(const WavePlane& in, const float* weight, const ConvolveRange& range,
                 WavePlane& out) {
   const D d;
-  for (int y = range.first_row; y < range.last_row; ++y) {
+  const std::size_t pitch = PackedCells(range) / (range.last_row - range.first_row);
+  for (int y = range.first_row; y < range.last_row; ++y, weight += pitch) {
     for (int x = range.first_column; x < range.last_column; x += static_cast<int>(hn::Lanes(d))) {
-      const V value = hn::Mul(hn::Load(d, in.Row(y) + x), hn::Load(d, weight.Row(y) + x));
+      const V value =
+          hn::Mul(hn::Load(d, in.Row(y) + x), hn::Load(d, weight + x - range.first_column));
       hn::Store(value, d, out.Row(y) + x);
     }
   }
 }
 
-void AddWeighedRange(const WavePlane& in, const WavePlane& weight, const ConvolveRange& range,
+void AddWeighedRange(const WavePlane& in, const float* weight, const ConvolveRange& range,
                      WavePlane& sum) {
   const D d;
-  for (int y = range.first_row; y < range.last_row; ++y) {
+  const std::size_t pitch = PackedCells(range) / (range.last_row - range.first_row);
+  for (int y = range.first_row; y < range.last_row; ++y, weight += pitch) {
     for (int x = range.first_column; x < range.last_column; x += static_cast<int>(hn::Lanes(d))) {
-      const V value = hn::Mul(hn::Load(d, in.Row(y) + x), hn::Load(d, weight.Row(y) + x));
+      const V value =
+          hn::Mul(hn::Load(d, in.Row(y) + x), hn::Load(d, weight + x - range.first_column));
       hn::Store(hn::Add(hn::Load(d, sum.Row(y) + x), value), d, sum.Row(y) + x);
     }
   }
@@ -244,11 +248,10 @@ void Convolve(const WavePlane& in, const IwaveTaps& taps, const ConvolveRange& r
               WavePlane& out) {
   HWY_DYNAMIC_DISPATCH(ConvolveStrips)(in, taps, range, out);
 }
-void Weigh(const WavePlane& in, const WavePlane& weight, const ConvolveRange& range,
-           WavePlane& out) {
+void Weigh(const WavePlane& in, const float* weight, const ConvolveRange& range, WavePlane& out) {
   HWY_DYNAMIC_DISPATCH(WeighRange)(in, weight, range, out);
 }
-void AddWeighed(const WavePlane& in, const WavePlane& weight, const ConvolveRange& range,
+void AddWeighed(const WavePlane& in, const float* weight, const ConvolveRange& range,
                 WavePlane& sum) {
   HWY_DYNAMIC_DISPATCH(AddWeighedRange)(in, weight, range, sum);
 }

@@ -19,10 +19,16 @@ struct ConvolveRange {
 void Convolve(const WavePlane& in, const IwaveTaps& taps, const ConvolveRange& range,
               WavePlane& out);
 
-/// out = weight in, and sum += weight in, cell by cell.
-void Weigh(const WavePlane& in, const WavePlane& weight, const ConvolveRange& range,
-           WavePlane& out);
-void AddWeighed(const WavePlane& in, const WavePlane& weight, const ConvolveRange& range,
+/// Cells of a range whose rows are filled up to multiples of 16.
+inline std::size_t PackedCells(const ConvolveRange& range) {
+  const int pitch = (range.last_column - range.first_column + 15) / 16 * 16;
+  return static_cast<std::size_t>(pitch) * (range.last_row - range.first_row);
+}
+
+/// out = weight in, and sum += weight in, cell by cell; `weight` has PackedCells(range) values, row
+/// after row.
+void Weigh(const WavePlane& in, const float* weight, const ConvolveRange& range, WavePlane& out);
+void AddWeighed(const WavePlane& in, const float* weight, const ConvolveRange& range,
                 WavePlane& sum);
 
 /// Differences of a potential across the faces of its cells, times `open` (1, or 0 where a face is

@@ -93,6 +93,21 @@ class BlockMap {
   std::vector<bool> any_;
 };
 
+// The values of these ranges in the order in which Weigh reads them.
+sea::FloatArray Packed(const WavePlane& plane, const std::vector<ConvolveRange>& ranges) {
+  std::size_t count = 0;
+  for (const ConvolveRange& range : ranges) count += PackedCells(range);
+  sea::FloatArray packed = sea::AllocateZeros<float>(count + 1);
+  float* to = packed.get();
+  for (const ConvolveRange& range : ranges) {
+    const std::size_t pitch = PackedCells(range) / (range.last_row - range.first_row);
+    for (int y = range.first_row; y < range.last_row; ++y, to += pitch) {
+      std::copy(plane.Row(y) + range.first_column, plane.Row(y) + range.last_column, to);
+    }
+  }
+  return packed;
+}
+
 // Weight of node n for a depth, both in the series kNodeMinCells kNodeRatio^n.
 double NodeWeight(const std::vector<double>& depths, std::size_t n, double depth) {
   if (!(depth > 0.0)) return 0.0;
@@ -127,22 +142,24 @@ void FlatIntegral::Apply(const WavePlane& in, WavePlane& out) {
   for (std::size_t n = in_.size(); n-- > 0;) ProlongAdd(out_[n], n > 0 ? out_[n - 1] : out);
 }
 
-TerrainIntegral::TerrainIntegral(int columns, int rows,
-                                 const std::function<double(int, int)>& depth_cells,
-                                 double step_number) {
-  const int levels_max = IwaveLevelsFor(columns, rows);
-  WavePlane ones(columns, rows), depth(columns, rows);
-  double greatest = 0.0, least = kIwaveDeepCells;  // of water
-  for (int y = 0; y < rows; ++y) {
-    for (int x = 0; x < columns; ++x) {
-      ones.Row(y)[x] = 1.0f;
-      const double cells = std::clamp(depth_cells(x, y), 0.0, kIwaveDeepCells);
-      depth.Row(y)[x] = static_cast<float>(cells);
-      greatest = std::max(greatest, cells);
-      if (cells > 0.0) least = std::min(least, cells);
-    }
+IwaveNodes DesignIwaveNodes(double least_cells, double greatest_cells, double step_number,
+                            int levels_max) {
+  IwaveNodes nodes;
+  nodes.depth_cells = {least_cells < greatest_cells ? kNodeMinCells : greatest_cells};
+  while (nodes.depth_cells.back() < greatest_cells) {
+    nodes.depth_cells.push_back(nodes.depth_cells.back() * kNodeRatio);
   }
-  for (int level = 0; level < levels_max; ++level) {
+  for (const double depth : nodes.depth_cells) {
+    nodes.kernels.push_back(DesignIwave(depth, step_number, levels_max));
+  }
+  return nodes;
+}
+
+TerrainIntegral::TerrainIntegral(const WavePlane& depth_cells, const IwaveNodes& nodes) {
+  const int columns = depth_cells.columns, rows = depth_cells.rows;
+  WavePlane ones(columns, rows);
+  for (int y = 0; y < rows; ++y) std::fill_n(ones.Row(y), columns, 1.0f);
+  for (int level = 0; level < IwaveLevelsFor(columns, rows); ++level) {
     if (level > 0) Restrict(ones_.back(), ones);
     levels_.push_back({});
     if (level > 0) levels_.back().in = WavePlane(columns >> level, rows >> level);
@@ -152,38 +169,37 @@ TerrainIntegral::TerrainIntegral(int columns, int rows,
     ones_.push_back(std::move(ones));
     ones = WavePlane(columns >> (level + 1), rows >> (level + 1));
   }
-  std::vector<double> depths{least < greatest ? kNodeMinCells : greatest};
-  while (depths.back() < greatest) depths.push_back(depths.back() * kNodeRatio);
-  for (std::size_t n = 0; n < depths.size(); ++n) {
+  for (std::size_t n = 0; n < nodes.kernels.size(); ++n) {
     WavePlane weight(columns, rows);
     bool any = false;
     for (int y = 0; y < rows; ++y) {
       for (int x = 0; x < columns; ++x) {
-        weight.Row(y)[x] = static_cast<float>(NodeWeight(depths, n, depth.Row(y)[x]));
-        any = any || weight.Row(y)[x] > 0.0f;
+        const double part = NodeWeight(nodes.depth_cells, n, depth_cells.Row(y)[x]);
+        weight.Row(y)[x] = static_cast<float>(part);
+        any = any || part > 0.0;
       }
     }
-    if (any) AddNode(DesignIwave(depths[n], step_number, levels_max), std::move(weight));
+    if (any) AddNode(nodes.kernels[n], std::move(weight));
   }
 }
 
 // On coarser grids the weight is the mean that R takes, over the cells that exist.
 void TerrainIntegral::AddNode(const IwaveKernels& kernels, WavePlane weight) {
   for (int level = 0; level < kernels.levels; ++level) {
-    Node node{.taps = kernels.taps[level],
-              .root_weight = WavePlane(weight.columns, weight.rows),
-              .strips = {},
-              .rows = {},
-              .around = {}};
+    WavePlane root(weight.columns, weight.rows);
     for (int y = 0; y < weight.rows; ++y) {
       for (int x = 0; x < weight.columns; ++x) {
-        node.root_weight.Row(y)[x] = std::sqrt(weight.Row(y)[x] / ones_[level].Row(y)[x]);
+        const float share = weight.Row(y)[x];
+        if (share > 0.0f) root.Row(y)[x] = std::sqrt(share / ones_[level].Row(y)[x]);
       }
     }
-    const BlockMap blocks(node.root_weight);
-    node.strips = blocks.Strips();
-    node.rows = blocks.Rows(&BlockMap::Active);
-    node.around = blocks.Rows(&BlockMap::Ring);
+    const BlockMap blocks(root);
+    Node node{.taps = kernels.taps[level],
+              .root_weight = {},
+              .strips = blocks.Strips(),
+              .rows = blocks.Rows(&BlockMap::Active),
+              .around = blocks.Rows(&BlockMap::Ring)};
+    node.root_weight = Packed(root, node.rows);
     levels_[level].nodes.push_back(std::move(node));
     if (level + 1 == kernels.levels) break;
     WavePlane coarse(weight.columns / 2, weight.rows / 2);
@@ -204,14 +220,18 @@ void TerrainIntegral::Apply(const WavePlane& in, WavePlane& out) {
     for (int y = 0; y < sum.rows; ++y) std::fill_n(sum.Row(y), sum.columns, 0.0f);
     for (const Node& node : level.nodes) {
       for (const ConvolveRange& range : node.around) Clear(range, level.weighted);
+      const float* weight = node.root_weight.get();
       for (const ConvolveRange& range : node.rows) {
-        Weigh(*fine, node.root_weight, range, level.weighted);
+        Weigh(*fine, weight, range, level.weighted);
+        weight += PackedCells(range);
       }
       for (const ConvolveRange& range : node.strips) {
         Convolve(level.weighted, node.taps, range, level.convolved);
       }
+      weight = node.root_weight.get();
       for (const ConvolveRange& range : node.rows) {
-        AddWeighed(level.convolved, node.root_weight, range, sum);
+        AddWeighed(level.convolved, weight, range, sum);
+        weight += PackedCells(range);
       }
     }
   }
