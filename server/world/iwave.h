@@ -9,8 +9,8 @@
 namespace onesea::world {
 
 /// InvalidArgument: no water in the region, or cells so small that step_s needs too many sub-steps.
-/// Cost for 256 x 256 cells: 0.11 ms a step over a flat bottom, 0.8 ms over terrain; of building, 1 ms
-/// and 20 ms.
+/// Cost for 256 x 256 cells: 0.11 ms a step over a flat bottom, 0.8 ms over terrain; of building,
+/// 1 ms and 20 ms.
 absl::StatusOr<std::unique_ptr<WaveSolver>> MakeIwave(const SolverSpec& spec);
 
 }  // namespace onesea::world
