@@ -9,6 +9,11 @@
 #include "common/sea/constants.h"
 
 namespace onesea::world {
+namespace {
+
+constexpr float kHeightMaxM = 1e4f;  // of the mean; no wave is higher than the sea is deep
+
+}  // namespace
 
 struct InteractionLayer::Grid {
   Grid(const Region& region_in, std::unique_ptr<WaveSolver> solver_in, const FoamOptions& options)
@@ -40,6 +45,13 @@ struct InteractionLayer::Grid {
       }
     }
     other.solver->Restore(state);
+  }
+
+  // False also for NaN, which passes every sum on.
+  bool IsSane() const {
+    float sum = 0.0f;
+    for (const float height : solver->height_m()) sum += std::abs(height);
+    return sum < kHeightMaxM * static_cast<float>(region.cells.cells());
   }
 
   std::size_t At(std::int64_t i, std::int64_t j) const {
@@ -237,6 +249,10 @@ void InteractionLayer::Step() {
       grid->forced = false;
     }
     if (steps_ % kFoamSteps == 0) {
+      if (!grid->IsSane()) {
+        grid->solver->Restore(grid->calm);
+        ++resets_;
+      }
       grid->foam.Advance(kFoamSteps * options_.step_s, *grid->solver);
     }
   }

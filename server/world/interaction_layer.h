@@ -37,7 +37,8 @@ struct InteractionOptions {
   FoamOptions foam = {};
 };
 
-/// One region's forcing for the next step, to be filled cell by cell; (rows x columns) each.
+/// One region's forcing for the next step, to be filled cell by cell with finite numbers;
+/// (rows x columns) each. StepForcing says what they are.
 struct RegionForcing {
   sea::CellRect cells;
   std::span<float> source_m, pressure_head_m, solid, rest_height_m;
@@ -81,8 +82,10 @@ class InteractionLayer {
   /// Foam that turbulence makes: `share` of the surface at once, spread likewise.
   bool AddFoam(Vec2d place, double radius_m, double share);
 
-  /// Advances all regions by step_s and forgets the deposits.
+  /// Advances all regions by step_s and forgets the deposits. A region whose heights are no longer
+  /// numbers of this world (forced beyond all measure) is calm again.
   void Step();
+  int resets() const { return resets_; }  ///< how often that happened
 
   /// `velocities` costs another 0.1 ms a region of 256 x 256.
   std::shared_ptr<const sea::InteractionSnapshot> Snapshot(std::int64_t tick,
@@ -103,6 +106,7 @@ class InteractionLayer {
 
   InteractionOptions options_;
   std::int64_t steps_ = 0;
+  int resets_ = 0;
   std::vector<PlacedAsk> asks_;
   std::vector<std::unique_ptr<Grid>> grids_;
 };

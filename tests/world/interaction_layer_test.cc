@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "common/sea/constants.h"
+#include "hwy/targets.h"
 
 namespace onesea::world {
 namespace {
@@ -170,6 +171,59 @@ TEST(InteractionLayer, NonsenseIsRefusedAndHarmsNobody) {
   ask.kind = SolverKind::kWaveEquation;
   EXPECT_FALSE(layer.Place(std::vector{ask, Ask(2, 0, 0)}).ok());
   EXPECT_EQ(layer.regions().size(), 1u);
+}
+
+TEST(InteractionLayer, ForcesBeyondMeasureHarmOneRegionForAMoment) {
+  InteractionLayer layer({});
+  ASSERT_TRUE(layer.Place(std::vector{Ask(1, 0, 0), Ask(2, 300, 0)}).ok());
+  ASSERT_TRUE(layer.AddSource({300, 0}, 2.0, 1.0));
+  ASSERT_TRUE(layer.AddPressure({0, 0}, 2.0, 1e45));
+  for (int n = 0; n < 12; ++n) layer.Step();
+  EXPECT_EQ(layer.resets(), 1);
+  EXPECT_EQ(HeightAt(layer, {0, 0}), 0.0);
+  EXPECT_NE(HeightAt(layer, {300, 0}), 0.0);
+}
+
+// A beach without a transcendental function in its making.
+std::shared_ptr<const sea::Terrain> Beach() {
+  auto terrain = std::make_shared<sea::Terrain>();
+  terrain->west_m = terrain->south_m = -40.0;
+  terrain->cell_m = 4.0;
+  terrain->columns = terrain->rows = 21;
+  for (int n = 0; n < 21 * 21; ++n) {
+    const float x = static_cast<float>(n % 21), y = static_cast<float>(n / 21);
+    terrain->elevation_m.push_back(-6.0f + 0.02f * x * x - 0.03f * y);
+  }
+  return terrain;
+}
+
+// All kinds, a moving region, deposits, foam and terrain: one hash, whatever the SIMD target,
+// compiler, optimisation and machine. It may change only with a commit that says why.
+TEST(InteractionLayer, HasOneHashEverywhere) {
+  const auto run = [](const std::shared_ptr<const sea::Terrain>& terrain) {
+    InteractionLayer layer({.depth_m = 3.0, .terrain = terrain});
+    RegionAsk wave = Ask(2, 0, 0, 64), shallow = Ask(3, -20, 10, 64);
+    wave.kind = SolverKind::kWaveEquation;
+    shallow.kind = SolverKind::kShallowWater;
+    for (int n = 0; n < 240; ++n) {
+      const double x = -6.0 + 0.06 * n;
+      EXPECT_TRUE(layer.Place(std::vector{Ask(1, x, 0, 96), wave, shallow}).ok());
+      EXPECT_TRUE(layer.AddPressure({x, 1.0}, 1.5, 3e4));
+      EXPECT_TRUE(layer.AddFoam({x, 1.0}, 1.0, 0.2));
+      EXPECT_TRUE(layer.AddSolid({-3.0, 4.0}, 1.2, 0.01));
+      if (n % 60 == 30) {
+        EXPECT_TRUE(layer.AddSource({2.0, -3.0}, 2.0, 6.0));
+      }
+      layer.Step();
+    }
+    return layer.Hash();
+  };
+  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+    hwy::SetSupportedTargetsForTest(target);
+    EXPECT_EQ(run(Beach()), 0xd2da1739a00af3dcu) << hwy::TargetName(target);
+    EXPECT_EQ(run(nullptr), 0x9d0968bafab99b9u) << hwy::TargetName(target);
+  }
+  hwy::SetSupportedTargetsForTest(0);
 }
 
 }  // namespace
