@@ -15,6 +15,10 @@ constexpr int kDirections = Attenuation::kDirections;
 // Water shallower than this lets less than all through, none at the shore [m].
 constexpr double kBarDepthM = 0.5;
 
+// Share of a difference that evens out sideways from line to line: the shadow's edge is
+// √(n / 2) cells wide after n of them.
+constexpr double kSpread = 0.25;
+
 struct Place {
   int cell;
   double fraction;
@@ -83,20 +87,28 @@ void Attenuation::CarryAlong(int direction) {
   const int places = along_x ? shape_.rows : shape_.columns;
   const double main = along_x ? to.cos : to.sin, side = along_x ? to.sin : to.cos;
   const double shift = side / std::abs(main);  // cells aside for one line
-  std::vector<double> line(places, 1.0), next(places);
+  std::vector<double> line(places, 1.0), next(places), wet(places);
   for (int n = 0; n < lines; ++n) {
     const int l = main > 0.0 ? n : lines - 1 - n;
+    const auto cell = [&](int p) {
+      return along_x ? static_cast<std::size_t>(p) * shape_.columns + l
+                     : static_cast<std::size_t>(l) * shape_.columns + p;
+    };
     for (int p = 0; p < places; ++p) {
       const double from = p - shift;
       const int low = static_cast<int>(std::floor(from));
       const auto value = [&](int at) { return at < 0 || at >= places ? 1.0 : line[at]; };
-      const double arriving = value(low) + (from - low) * (value(low + 1) - value(low));
-      const std::size_t cell = along_x ? static_cast<std::size_t>(p) * shape_.columns + l
-                                       : static_cast<std::size_t>(l) * shape_.columns + p;
-      next[p] = arriving * std::clamp(depth_m_[cell] / kBarDepthM, 0.0, 1.0);
-      arriving_[cell * kDirections + direction] = static_cast<float>(next[p]);
+      wet[p] = std::clamp(depth_m_[cell(p)] / kBarDepthM, 0.0, 1.0);
+      next[p] = wet[p] * (value(low) + (from - low) * (value(low + 1) - value(low)));
     }
-    line.swap(next);
+    // What one cell gives another cell gets, across water only.
+    for (int p = 0; p < places; ++p) {
+      double gain = 0.0;
+      if (p > 0) gain += std::min(wet[p], wet[p - 1]) * (next[p - 1] - next[p]);
+      if (p + 1 < places) gain += std::min(wet[p], wet[p + 1]) * (next[p + 1] - next[p]);
+      line[p] = next[p] + kSpread * gain;
+      arriving_[cell(p) * kDirections + direction] = static_cast<float>(line[p]);
+    }
   }
 }
 

@@ -15,7 +15,7 @@
 ///
 /// s_c(θ) is the share of the cascade's variance that travels to θ, v the share of it that arrives:
 /// 1 in the open, 0 behind land. v is carried from cell to cell along θ, so that the spread of the
-/// sea's directions (and some diffusion of the grid's, which stands in for diffraction) fills the
+/// sea's directions (and some spreading sideways, which stands in for diffraction) fills the
 /// shadow of an island or a breakwater. Heights, displacements, velocities and slopes of a cascade
 /// are all multiplied; the factor's own slope is left out (it changes over many wavelengths).
 ///
