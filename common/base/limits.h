@@ -61,7 +61,10 @@ inline constexpr double kBodySpinMaxRadPerS = 50.0;
 inline constexpr double kBodyForceMaxN = 1e10;  // of one command
 inline constexpr int kThrustersMax = 8;
 inline constexpr int kRuddersMax = 4;
-inline constexpr int kRopesMax = 1024;           // of one session
+inline constexpr int kBodyNameLengthMax = 64;
+inline constexpr int kBodyAgeTicksMax =
+    10'000;                             // of a state in a keyframe; those at rest are older
+inline constexpr int kRopesMax = 1024;  // of one session
 inline constexpr int kBodyContactPairsMax = 12;  // of one body; more touch nothing
 
 // Service.

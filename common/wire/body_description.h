@@ -1,0 +1,125 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "absl/status/status.h"
+#include "common/base/limits.h"
+#include "common/base/vec.h"
+
+/// What a floating body is, as commands, session files and viewers say it. Body frame: x forward, y
+/// to port, z up, metres; its origin is the shape's, not the centre of mass.
+namespace onesea::wire {
+
+enum class ShapeKind : std::uint8_t {
+  kBox = 1,
+  kSphere = 2,
+  kCylinder = 3,  ///< axis along z
+  kCapsule = 4,   ///< axis along x
+  kMesh = 5,      ///< closed, of triangles
+};
+
+struct BodyShape {
+  ShapeKind kind = ShapeKind::kBox;
+  Vec3d size_m{1.0, 1.0, 1.0};  ///< of a box
+  double radius_m = 0.5;        ///< of round ones
+  double length_m = 1.0;        ///< of a cylinder, and of a capsule without its ends
+  std::string mesh;             ///< of kMesh: a file's bytes, STL or OBJ; not streamed
+  std::uint64_t mesh_hash = 0;  ///< of those bytes (MeshHash); what viewers ask for
+  friend bool operator==(const BodyShape&, const BodyShape&) = default;
+};
+std::uint64_t MeshHash(const std::string& mesh);
+
+struct Thruster {
+  Vec3d position_m;
+  Vec3d direction{1.0, 0.0, 0.0};  ///< of positive thrust on the body; any length but 0
+  double diameter_m = 0.3;         ///< (0, 20]
+  double turns_per_s_max = 20.0;   ///< (0, 200]
+  double kt = 0.35;                ///< thrust coefficient at the bollard, [0, 1]
+  double kt_slope = 0.4;           ///< its fall per unit of advance ratio, [0, 2]
+  double lag_s = 0.5;              ///< first order, [0, 60]
+  double steer_rad_max = 0.0;      ///< an outboard turns with the rudder command, [0, π]
+  friend bool operator==(const Thruster&, const Thruster&) = default;
+};
+
+struct Rudder {
+  Vec3d position_m;            ///< middle of the blade; its axis is z
+  double area_m2 = 0.1;        ///< (0, 1000]
+  double aspect_ratio = 1.5;   ///< (0, 10]
+  double angle_rad_max = 0.6;  ///< (0, π/2]
+  double lag_s = 0.3;          ///< first order, [0, 60]
+  int behind_thruster = -1;    ///< in whose race it stands; -1: none
+  friend bool operator==(const Rudder&, const Rudder&) = default;
+};
+
+struct Windage {
+  double frontal_area_m2 = 0.0, lateral_area_m2 = 0.0;          ///< [0, 1e5]
+  double frontal_coefficient = 0.8, lateral_coefficient = 1.0;  ///< [0, 5]
+  Vec3d centre_m;
+  friend bool operator==(const Windage&, const Windage&) = default;
+};
+
+/// Dimensionless, on rho/2.
+struct Drag {
+  double friction = 0.004;  ///< [0, 1]
+  double pressure = 0.6;    ///< where the hull moves into the water, [0, 10]
+  double suction = 0.4;     ///< where it moves away, [0, 10]
+  double planing = 0.0;     ///< [0, 10]
+  friend bool operator==(const Drag&, const Drag&) = default;
+};
+
+enum class BodyControl : std::uint8_t {
+  kIntegrated = 1,  ///< moved by the server
+  kByOwner = 2,     ///< its owner streams poses (SetBodyPoses)
+};
+enum class Radiation : std::uint8_t {
+  kCoefficients = 1,  ///< by the damping given or estimated
+  kGrid = 2,          ///< by the wake in the interaction layer alone
+};
+
+/// (6 x 6) row-major: surge, sway, heave, roll, pitch, yaw about the centre of mass; SI units.
+using Matrix6 = std::array<double, 36>;
+
+struct BodyDescription {
+  std::string name;   ///< at most 64 bytes
+  std::string owner;  ///< at most 64 bytes
+  std::uint32_t colour_rgb = 0xC0C0C0;
+  BodyControl control = BodyControl::kIntegrated;
+  Radiation radiation = Radiation::kCoefficients;
+  BodyShape shape;
+  double mass_kg = 1.0;                                ///< [1e-3, 1e9]
+  std::optional<Vec3d> centre_of_mass_m;               ///< none: of the uniform solid
+  std::optional<std::array<double, 9>> inertia_kg_m2;  ///< row-major; none: of the uniform solid
+  std::optional<Matrix6> added_mass;                   ///< none: estimated from the shape
+  std::optional<Matrix6> radiation_damping;            ///< none: estimated
+  std::optional<Matrix6> viscous_damping;              ///< none: estimated
+  std::optional<Matrix6> quadratic_damping;            ///< none: nothing
+  Drag drag;
+  Windage windage;
+  std::vector<Thruster> thrusters;   ///< at most kThrustersMax
+  std::vector<Rudder> rudders;       ///< at most kRuddersMax
+  double contact_friction = 0.4;     ///< [0, 2]
+  double contact_restitution = 0.1;  ///< [0, 1]
+  friend bool operator==(const BodyDescription&, const BodyDescription&) = default;
+};
+
+/// Ranges of every number and text; whether the hull is closed and can float is the server's to
+/// say. InvalidArgument naming field, value and limit, each field after `prefix`.
+absl::Status ValidateBodyDescription(const std::string& prefix, const BodyDescription& body);
+
+/// What a viewer needs to draw and name a body.
+struct BodyInfo {
+  std::uint32_t id = 0;
+  std::string name, owner;
+  std::uint32_t colour_rgb = 0xC0C0C0;
+  BodyShape shape;         ///< without the mesh's bytes
+  Vec3d centre_of_mass_m;  ///< body frame: what BodyState::position_m is the place of
+  double mass_kg = 0.0;
+  friend bool operator==(const BodyInfo&, const BodyInfo&) = default;
+};
+absl::Status ValidateBodyInfo(const BodyInfo& info);
+
+}  // namespace onesea::wire
