@@ -47,6 +47,12 @@ inline constexpr std::int64_t kRegionCellsMax =
     4 * 1024 * 1024;                             // of one session; 56 MB at a viewer
 inline constexpr double kHeightStepMinM = 1e-4;  // heights on the wire reach 32767 steps
 inline constexpr double kHeightStepMaxM = 0.1;
+inline constexpr int kObstaclesMax = 256;  // of one session
+inline constexpr int kObstacleCornersMax = 64;
+inline constexpr double kExplosionMaxJ = 1e10;  // 2.4 t of TNT
+inline constexpr int kSprayMax = 256;           // events of one frame
+inline constexpr double kWaterLevelMaxM = 100.0;
+inline constexpr int kWaterLevelsMax = 1024;  // entries of a tide table
 
 // Bodies.
 inline constexpr int kBodiesMax = 1024;                      // of one session
@@ -66,6 +72,15 @@ inline constexpr int kBodyAgeTicksMax =
     10'000;                             // of a state in a keyframe; those at rest are older
 inline constexpr int kRopesMax = 1024;  // of one session
 inline constexpr int kBodyContactPairsMax = 12;  // of one body; more touch nothing
+
+// Commands on the world.
+inline constexpr int kRequestIdLengthMax = 64;
+inline constexpr int kLeaseLengthMax = 64;
+inline constexpr double kCommandAheadMaxS = 60.0;  // what a session has to keep of future commands
+inline constexpr double kImpulseMaxNS = 1e9;
+inline constexpr double kLeaseMaxS = 3600.0;
+inline constexpr int kInstrumentsMax = 64;  // of one stream
+inline constexpr int kTicksPerReadingMax = 3600;
 
 // Service.
 inline constexpr int kSessionsMax = 64;

@@ -16,12 +16,6 @@ constexpr double kCoefficientMax = 1e15;       // of given matrices: keeps sums 
 constexpr double kPi = 3.141592653589793;
 constexpr std::uint32_t kColourMax = 0xFFFFFF;
 
-absl::Status CheckText(std::string_view prefix, std::string_view field, const std::string& text) {
-  if (text.size() <= kBodyNameLengthMax) return absl::OkStatus();
-  return absl::InvalidArgumentError(absl::StrCat(Text(prefix), Text(field), ": ", text.size(),
-                                                 " bytes, the limit is ", kBodyNameLengthMax));
-}
-
 absl::Status CheckOffset(std::string_view prefix, const std::string& field, Vec3d v) {
   ONESEA_RETURN_IF_ERROR(CheckReal(prefix, field + ".x", v.x, -kOffsetMaxM, kOffsetMaxM));
   ONESEA_RETURN_IF_ERROR(CheckReal(prefix, field + ".y", v.y, -kOffsetMaxM, kOffsetMaxM));
@@ -136,8 +130,8 @@ std::uint64_t MeshHash(const std::string& mesh) {
 }
 
 absl::Status ValidateBodyDescription(const std::string& prefix, const BodyDescription& body) {
-  ONESEA_RETURN_IF_ERROR(CheckText(prefix, "name", body.name));
-  ONESEA_RETURN_IF_ERROR(CheckText(prefix, "owner", body.owner));
+  ONESEA_RETURN_IF_ERROR(CheckText(prefix, "name", body.name, kBodyNameLengthMax));
+  ONESEA_RETURN_IF_ERROR(CheckText(prefix, "owner", body.owner, kBodyNameLengthMax));
   ONESEA_RETURN_IF_ERROR(CheckInteger(prefix, "colour_rgb", body.colour_rgb, 0, kColourMax));
   ONESEA_RETURN_IF_ERROR(CheckShape(prefix + "shape.", body.shape));
   ONESEA_RETURN_IF_ERROR(CheckMass(prefix, body));
@@ -158,8 +152,8 @@ absl::Status ValidateBodyDescription(const std::string& prefix, const BodyDescri
 absl::Status ValidateBodyInfo(const BodyInfo& info) {
   const std::string prefix = absl::StrCat("body ", info.id, ": ");
   if (info.id == 0) return absl::InvalidArgumentError(absl::StrCat(prefix, "id"));
-  ONESEA_RETURN_IF_ERROR(CheckText(prefix, "name", info.name));
-  ONESEA_RETURN_IF_ERROR(CheckText(prefix, "owner", info.owner));
+  ONESEA_RETURN_IF_ERROR(CheckText(prefix, "name", info.name, kBodyNameLengthMax));
+  ONESEA_RETURN_IF_ERROR(CheckText(prefix, "owner", info.owner, kBodyNameLengthMax));
   ONESEA_RETURN_IF_ERROR(CheckInteger(prefix, "colour_rgb", info.colour_rgb, 0, kColourMax));
   ONESEA_RETURN_IF_ERROR(CheckShape(prefix + "shape.", info.shape));
   ONESEA_RETURN_IF_ERROR(CheckOffset(prefix, "centre_of_mass_m", info.centre_of_mass_m));

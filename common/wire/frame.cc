@@ -5,6 +5,7 @@
 #include "common/wire/bounds.h"
 #include "common/wire/proto_sea.h"
 #include "common/wire/proto_session.h"
+#include "common/wire/proto_update.h"
 #include "onesea/v1/frame.pb.h"
 
 namespace onesea::wire {
@@ -71,6 +72,7 @@ std::string EncodeFrame(const Frame& frame) {
     ToProto(frame.welcome->session, proto.mutable_welcome()->mutable_session());
   }
   if (frame.farewell) proto.mutable_farewell()->set_reason(*frame.farewell);
+  if (frame.world) ToProto(*frame.world, proto.mutable_world());
   return proto.SerializeAsString();
 }
 
@@ -92,6 +94,9 @@ absl::StatusOr<Frame> DecodeFrame(std::string_view bytes) {
     ONESEA_ASSIGN_OR_RETURN(frame.welcome, ReadWelcome(proto.welcome()));
   }
   if (proto.has_farewell()) frame.farewell = proto.farewell().reason();
+  if (proto.has_world()) {
+    ONESEA_ASSIGN_OR_RETURN(frame.world, FromProto(proto.world()));
+  }
   return frame;
 }
 

@@ -8,6 +8,7 @@
 
 #include "absl/status/statusor.h"
 #include "common/wire/session_spec.h"
+#include "common/wire/world_update.h"
 
 /// Frames of the Watch stream: domain structs and their bytes (proto onesea.v1.WatchResponse).
 namespace onesea::wire {
@@ -38,12 +39,14 @@ struct Frame {
   std::optional<ProbeHeights> probes;
   std::optional<Welcome> welcome;
   std::optional<std::string> farewell;
+  std::optional<WorldUpdate> world;  ///< for viewers of every frame
 };
 
 std::string EncodeFrame(const Frame& frame);
 
 /// InvalidArgument (DataLoss for bytes that do not parse) naming the field; never crashes on
-/// hostile bytes. A welcome's recipe is validated.
+/// hostile bytes. A welcome's recipe is validated; the packed parts of `world` are checked by those
+/// who apply them.
 absl::StatusOr<Frame> DecodeFrame(std::string_view bytes);
 
 }  // namespace onesea::wire

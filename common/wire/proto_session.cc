@@ -5,6 +5,7 @@
 #include "common/base/limits.h"
 #include "common/wire/bounds.h"
 #include "common/wire/proto_sea.h"
+#include "common/wire/proto_world.h"
 
 namespace onesea::wire {
 namespace {
@@ -105,6 +106,7 @@ void ToProto(const SessionSpec& spec, v1::SessionSpec* out) {
   SetProbes(spec.probes_m, out);
   out->set_lock_step_participants(spec.lock_step_participants);
   out->set_lock_step_deadline_s(spec.lock_step_deadline_s);
+  if (!spec.world.empty()) ToProto(spec.world, out->mutable_world());
 }
 
 absl::StatusOr<SessionSpec> FromProto(const v1::SessionSpec& proto, const std::string& folder) {
@@ -128,6 +130,7 @@ absl::StatusOr<SessionSpec> FromProto(const v1::SessionSpec& proto, const std::s
   if (!(proto.lock_step_deadline_s() == 0.0)) {
     spec.lock_step_deadline_s = proto.lock_step_deadline_s();
   }
+  ONESEA_ASSIGN_OR_RETURN(spec.world, FromProto(proto.world(), folder));
   ONESEA_RETURN_IF_ERROR(ValidateSessionSpec(spec));
   return spec;
 }

@@ -73,6 +73,7 @@ absl::Status ValidateSessionSpec(const SessionSpec& spec) {
   }
   ONESEA_RETURN_IF_ERROR(wire::CheckRecipeBytes(spec.recipe));
   ONESEA_RETURN_IF_ERROR(CheckPace(spec));
+  ONESEA_RETURN_IF_ERROR(wire::ValidateWorldSpec("world.", spec.world));
   return CheckPlace(spec);
 }
 

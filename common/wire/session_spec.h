@@ -8,6 +8,7 @@
 #include "absl/status/status.h"
 #include "common/base/vec.h"
 #include "common/sea/recipe.h"
+#include "common/wire/world_spec.h"
 
 /// Sessions in the domain's own words; the proto of the same name stops at common/wire.
 namespace onesea {
@@ -26,6 +27,7 @@ struct SessionSpec {
   std::vector<Vec2d> probes_m;
   int lock_step_participants = 1;
   double lock_step_deadline_s = 10.0;
+  wire::WorldSpec world;  ///< terrain, regions, bodies, tide
 };
 
 /// OK, or InvalidArgument (FailedPrecondition: sea_model_version) with field, value and limit.

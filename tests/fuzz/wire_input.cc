@@ -5,6 +5,9 @@
 
 #include "common/base/check.h"
 #include "common/wire/terrain_codec.h"
+#include "common/base/limits.h"
+#include "common/wire/body_table.h"
+#include "common/wire/frame.h"
 #include "common/wire/tile_encoder.h"
 #include "common/wire/tile_store.h"
 
@@ -54,6 +57,48 @@ void CheckTerrain(std::string_view bytes) {
                             : !terrain.status().message().empty());
 }
 
+bool Within(Vec3d v, double max) {
+  return std::fabs(v.x) <= max && std::fabs(v.y) <= max && std::fabs(v.z) <= max;
+}
+
+void CheckBodies(std::string_view bytes) {
+  const auto bodies = wire::ReadBodies(bytes);
+  if (!bodies.ok()) {
+    ONESEA_CHECK(!bodies.status().message().empty());
+    return;
+  }
+  ONESEA_CHECK(bodies->size() <= kBodiesMax);
+  for (const wire::SentBody& body : *bodies) {
+    ONESEA_CHECK(body.state.id > 0 && body.age_ticks >= 0);
+    ONESEA_CHECK(Within(body.state.position_m, kQueryCoordinateMaxM));
+    ONESEA_CHECK(Within(body.state.velocity_m_per_s, kBodySpeedMaxMPerS));
+    ONESEA_CHECK(Within(body.state.spin_rad_per_s, kBodySpinMaxRadPerS));
+    ONESEA_CHECK(std::fabs(Dot(body.state.turn, body.state.turn) - 1.0) < 1e-9);
+  }
+  // What was read is written and read again as the same.
+  std::string again;
+  wire::AppendBodies(*bodies, again);
+  const auto twice = wire::ReadBodies(again);
+  ONESEA_CHECK(twice.ok() && twice->size() == bodies->size()) << twice.status();
+}
+
+void CheckFrame(std::string_view bytes) {
+  const auto frame = wire::DecodeFrame(bytes);
+  if (!frame.ok() || !frame->world) return;
+  wire::TileStore tiles;
+  if (tiles.Apply(frame->world->tiles, true).ok()) {
+    ONESEA_CHECK(tiles.fields().size() == frame->world->tiles.layout->size());
+  }
+  wire::BodyTable bodies;
+  if (IsTickInRange(frame->world->tick, 60)) {
+    bodies.Apply(frame->world->bodies, frame->world->tick, 60, true).IgnoreError();
+  }
+  for (const wire::BodyTable::Body& body : bodies.bodies()) {
+    ONESEA_CHECK(body.info != nullptr && body.info->id == body.newest.id);
+    ONESEA_CHECK(std::isfinite(Norm(body.At(SimTime::FromSeconds(1e9)).position_m)));
+  }
+}
+
 }  // namespace
 
 void DecodeAndCheck(std::string_view input) {
@@ -62,6 +107,8 @@ void DecodeAndCheck(std::string_view input) {
   input.remove_prefix(1);
   if (choice == 0) CheckTiles(input);
   if (choice == 'T') CheckTerrain(input);
+  if (choice == 1) CheckBodies(input);
+  if (choice == 2) CheckFrame(input);
 }
 
 }  // namespace onesea::fuzz

@@ -5,27 +5,48 @@
 #include <string>
 #include <vector>
 
+#include "common/wire/frame.h"
 #include "common/wire/tile_encoder.h"
 #include "tests/fuzz/wire_input.h"
-#include "tests/wire/pool_scene.h"
 
 namespace onesea::fuzz {
 namespace {
 
+wire::BodyView Boat(std::uint32_t id) {
+  wire::BodyView boat;
+  boat.state.id = id;
+  boat.state.position_m = {1000.0 * id, -3.5, 0.25};
+  boat.state.velocity_m_per_s = {1.0, -2.0, 0.5};
+  wire::BodyInfo info;
+  info.id = id;
+  info.name = "boat";
+  boat.info = std::make_shared<const wire::BodyInfo>(info);
+  return boat;
+}
+
 std::vector<std::string> Corpus() {
   std::vector<std::string> corpus;
-  wire::TileEncoder encoder;
+  wire::TileEncoder tiles;
+  wire::BodyEncoder bodies(1.0 / 60.0);
   const wire::RegionLayout region = {
       .id = 1, .cells = {.west = -32, .south = -32, .columns = 96, .rows = 64, .cell_m = 0.5}};
   std::vector<float> values(region.cells.cells());
-  for (int frame = 0; frame < 3; ++frame) {
+  for (std::size_t frame = 0; frame < 3; ++frame) {
     for (std::size_t n = 0; n < values.size(); ++n) {
       values[n] = 0.1F * static_cast<float>((n * 2654435761U >> (7 + frame)) % 10);
     }
     const wire::TileField field{region, values, values};
-    for (const std::string& blob : encoder.Encode({&field, 1}).blobs) {
+    wire::Frame whole;
+    whole.world.emplace();
+    whole.world->tiles = tiles.Encode({&field, 1});
+    whole.world->bodies =
+        bodies.Encode(static_cast<Tick>(frame) * 60, std::vector{Boat(2), Boat(700)});
+    whole.world->spray.resize(2);
+    for (const std::string& blob : whole.world->tiles.blobs) {
       corpus.push_back(std::string(1, '\0') + blob);
     }
+    corpus.push_back(std::string(1, '\1') + whole.world->bodies.states);
+    corpus.push_back(std::string(1, '\2') + wire::EncodeFrame(whole));
   }
   return corpus;
 }

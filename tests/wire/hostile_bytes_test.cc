@@ -15,6 +15,7 @@
 #include "common/wire/recipe_codec.h"
 #include "onesea/v1/frame.pb.h"
 #include "tests/wire/recipe_examples.h"
+#include "tests/wire/world_examples.h"
 
 namespace onesea::wire {
 namespace {
@@ -34,6 +35,7 @@ Frame FullFrame(const sea::SeaState& sea) {
   frame.welcome->session.hs_m = 3.0;
   frame.welcome->session.probes_m = {{1.0, 2.0}};
   frame.farewell = "bye";
+  frame.world = FullUpdate();
   return frame;
 }
 
@@ -172,9 +174,13 @@ TEST(HostileBytes, NanAndInfinityAreRefusedInEveryFieldOfASessionSpec) {
   spec.latitude_deg = 1.0;
   spec.longitude_deg = 2.0;
   spec.probes_m = {{1.0, 2.0}};
+  spec.world.regions = {FullRegion()};
+  spec.world.bodies = {{FullBody(), FullKinematics()}};
+  spec.world.water_level = {{10.0, 0.5}};
+  spec.world.body_wind_m_per_s = Vec2d{3.0, 4.0};
   v1::SessionSpec proto;
   ToProto(spec, &proto);
-  ExpectNoNanAnywhere(proto, 40,
+  ExpectNoNanAnywhere(proto, 120,
                       [](const v1::SessionSpec& broken) { return FromProto(broken).ok(); });
 }
 

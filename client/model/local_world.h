@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "absl/base/thread_annotations.h"
+#include "absl/status/status.h"
+#include "absl/synchronization/mutex.h"
+#include "common/base/sim_time.h"
+#include "common/base/vec.h"
+#include "common/wire/body_table.h"
+#include "common/wire/frame.h"
+#include "common/wire/tile_store.h"
+
+namespace onesea::client {
+
+/// What the server alone computes, at one moment: interaction layer and bodies. Immutable; a
+/// renderer takes one per picture.
+class WorldView {
+ public:
+  using Fields = std::vector<wire::RegionField>;
+
+  /// Height of the interaction layer [m], to be added to the spectral sea: the sum of all regions,
+  /// bilinear between cells, linear in time between the last two updates and constant outside of
+  /// them; 0 outside of every region. Pre: finite place.
+  double HeightAt(Vec2d place, SimTime time) const;
+  /// Share of the surface that foam of the interaction layer covers, [0, 1]; of the last update.
+  double FoamAt(Vec2d place) const;
+
+  /// Of the last update; for renderers that make textures of them.
+  const Fields& fields() const { return *fields_; }
+  /// One's place and motion at a time: Body::At. Ascending by id.
+  std::span<const wire::BodyTable::Body> bodies() const { return bodies_.bodies(); }
+  const wire::BodyTable::Body* FindBody(std::uint32_t id) const { return bodies_.Find(id); }
+  double water_level_m() const { return water_level_m_; }
+  SimTime time() const { return time_; }  ///< of the last update
+
+ private:
+  friend class LocalWorld;
+  SimTime before_time_, time_;
+  std::shared_ptr<const Fields> before_ = std::make_shared<const Fields>();
+  std::shared_ptr<const Fields> fields_ = before_;
+  wire::BodyTable bodies_;
+  double water_level_m_ = 0.0;
+};
+
+/// Follows the world of one session from the frames of a Watch with `every_frame`.
+///
+/// Thread-safe: the network thread applies, render and game threads ask.
+class LocalWorld {
+ public:
+  /// Frames must come in order. A keyframe replaces everything, and without a world it empties
+  /// everything. An error (InvalidArgument: bytes that no server sends; FailedPrecondition: a frame
+  /// that is missing) leaves the view as it was and the world not current() until a keyframe
+  /// comes: watch anew. Pre: IsTickRateExact(tick_rate_hz).
+  absl::Status Apply(const wire::Frame& frame, int tick_rate_hz);
+
+  /// Has it a keyframe and everything since?
+  bool current() const;
+  /// Never null.
+  std::shared_ptr<const WorldView> view() const;
+  /// Spray since the last call, oldest first; beyond kSprayMax the oldest are gone.
+  std::vector<wire::Spray> TakeSpray();
+
+ private:
+  absl::Status ApplyWorld(const wire::WorldUpdate& update, bool keyframe, int tick_rate_hz)
+      ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  void AddSpray(const std::vector<wire::Spray>& spray) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+
+  mutable absl::Mutex mutex_;
+  wire::TileStore tiles_ ABSL_GUARDED_BY(mutex_);
+  std::shared_ptr<const WorldView> view_ ABSL_GUARDED_BY(mutex_) =
+      std::make_shared<const WorldView>();
+  std::vector<wire::Spray> spray_ ABSL_GUARDED_BY(mutex_);
+  bool current_ ABSL_GUARDED_BY(mutex_) = false;
+};
+
+}  // namespace onesea::client

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "absl/status/status.h"
+#include "common/base/quaternion.h"
+#include "common/base/vec.h"
+#include "common/wire/body_description.h"
+
+/// What a session's world begins with.
+namespace onesea::wire {
+
+/// Where a body is and how it moves; world frame.
+struct Kinematics {
+  Vec3d position_m;  ///< centre of mass
+  Quaternion turn;   ///< body to world, unit
+  Vec3d velocity_m_per_s;
+  Vec3d spin_rad_per_s;
+  friend bool operator==(const Kinematics&, const Kinematics&) = default;
+};
+
+enum class RegionSolver : std::uint8_t { kIwave = 1, kWaveEquation = 2, kShallowWater = 3 };
+
+/// A region of the interaction layer as it is asked for.
+struct RegionSpec {
+  RegionSolver solver = RegionSolver::kIwave;
+  Vec2d middle_m;                 ///< rounded to whole cells by the server
+  int columns = 256, rows = 256;  ///< multiples of kRegionSideStep
+  double cell_m = 0.5;
+  std::uint32_t follow_body_id = 0;  ///< the middle follows this body; 0: it stands
+  double damping_per_s = 0.0;        ///< [0, 10]
+  double height_step_m = 1e-3;       ///< on the wire
+  int frames_per_update = 1;         ///< tiles go with every so manieth streamed frame, [1, 60]
+  friend bool operator==(const RegionSpec&, const RegionSpec&) = default;
+};
+
+struct StartBody {
+  BodyDescription body;
+  Kinematics start;
+  friend bool operator==(const StartBody&, const StartBody&) = default;
+};
+
+struct WaterLevel {
+  double time_s = 0.0;   ///< sea seconds since tick 0
+  double level_m = 0.0;  ///< ±kWaterLevelMaxM
+  friend bool operator==(const WaterLevel&, const WaterLevel&) = default;
+};
+
+struct WorldSpec {
+  std::string terrain_path;                ///< a file beside the server; empty: no terrain
+  std::vector<RegionSpec> regions;         ///< follow_body_id counts `bodies` from 1
+  std::vector<StartBody> bodies;           ///< they get the ids 1, 2, ...
+  std::vector<WaterLevel> water_level;     ///< ascending times; linear between, constant outside
+  std::optional<Vec2d> body_wind_m_per_s;  ///< where it blows to; none: the sea's wind
+  bool empty() const { return *this == WorldSpec{}; }
+  friend bool operator==(const WorldSpec&, const WorldSpec&) = default;
+};
+
+/// InvalidArgument naming field, value and limit, each field after `prefix`.
+absl::Status ValidateKinematics(const std::string& prefix, const Kinematics& kinematics);
+absl::Status ValidateRegionSpec(const std::string& prefix, const RegionSpec& region);
+absl::Status ValidateWorldSpec(const std::string& prefix, const WorldSpec& world);
+
+/// Each part within ±max.
+absl::Status CheckVector(const std::string& prefix, const std::string& field, Vec3d v, double max);
+
+}  // namespace onesea::wire

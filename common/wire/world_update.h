@@ -1,0 +1,30 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "common/base/sim_time.h"
+#include "common/base/vec.h"
+#include "common/wire/body_encoder.h"
+#include "common/wire/tile_codec.h"
+
+namespace onesea::wire {
+
+/// Water thrown up where a hull slams or crests meet.
+struct Spray {
+  Vec3d position_m, velocity_m_per_s;
+  double mass_kg = 0.0;  ///< (0, 1e6]
+  friend bool operator==(const Spray&, const Spray&) = default;
+};
+
+/// What one frame says of the interaction layer and of bodies: what changed, or in a keyframe all
+/// that there is. The same for every viewer.
+struct WorldUpdate {
+  Tick tick = 0;  ///< when all of it holds; at most the stamp's
+  TileUpdate tiles;
+  BodyUpdate bodies;
+  std::optional<double> water_level_m;  ///< of the whole sea above the mean; none: as before
+  std::vector<Spray> spray;             ///< at most kSprayMax; none in a keyframe
+};
+
+}  // namespace onesea::wire

@@ -1,0 +1,206 @@
+#include "client/model/local_world.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "common/base/limits.h"
+#include "common/wire/body_encoder.h"
+#include "common/wire/tile_encoder.h"
+
+namespace onesea::client {
+namespace {
+
+constexpr int kTickRateHz = 60;
+constexpr wire::RegionLayout kRegion = {
+    .id = 1, .cells = {.west = -32, .south = 0, .columns = 96, .rows = 64, .cell_m = 0.5}};
+
+// A server's side: a slope of water that rises, and a boat that goes east.
+class FakeWorld {
+ public:
+  // Heights are linear in the place, so that bilinear interpolation is exact.
+  static double Height(Vec2d place, double t) { return 0.01 * place.x + 0.1 * t; }
+
+  // As it goes over the wire: encoded and decoded.
+  wire::Frame Next() {
+    tick_ += 2;
+    const double t = static_cast<double>(tick_) / kTickRateHz;
+    for (std::int64_t j = 0; j < kRegion.cells.rows; ++j) {
+      for (std::int64_t i = 0; i < kRegion.cells.columns; ++i) {
+        heights_[static_cast<std::size_t>(j * kRegion.cells.columns + i)] = static_cast<float>(
+            Height(kRegion.cells.PlaceOf(i + kRegion.cells.west, j + kRegion.cells.south), t));
+      }
+    }
+    const wire::TileField field{kRegion, heights_, heights_};
+    wire::BodyView boat;
+    boat.state.id = 5;
+    boat.state.position_m = {2.0 * t, 1.0, 0.0};
+    boat.state.velocity_m_per_s = {2.0, 0.0, 0.0};
+    boat.info = info_;
+    wire::Frame frame;
+    frame.world.emplace();
+    frame.world->tick = tick_;
+    frame.world->tiles = tiles_.Encode({&field, 1});
+    frame.world->bodies = bodies_.Encode(tick_, {&boat, 1});
+    return Sent(frame);
+  }
+  wire::Frame Keyframe() {
+    wire::Frame frame;
+    frame.keyframe = true;
+    frame.world.emplace();
+    frame.world->tick = tick_;
+    frame.world->tiles = tiles_.Keyframe();
+    frame.world->bodies = bodies_.Keyframe();
+    frame.world->water_level_m = 0.75;
+    return Sent(frame);
+  }
+  SimTime time() const { return TimeOfTick(tick_, kTickRateHz); }
+
+ private:
+  static wire::Frame Sent(const wire::Frame& frame) {
+    return wire::DecodeFrame(wire::EncodeFrame(frame)).value();
+  }
+  static std::shared_ptr<const wire::BodyInfo> Boat() {
+    wire::BodyInfo info;
+    info.id = 5;
+    info.name = "boat";
+    return std::make_shared<const wire::BodyInfo>(info);
+  }
+
+  Tick tick_ = 0;
+  std::vector<float> heights_ = std::vector<float>(kRegion.cells.cells());
+  std::shared_ptr<const wire::BodyInfo> info_ = Boat();
+  wire::TileEncoder tiles_;
+  wire::BodyEncoder bodies_{1.0 / kTickRateHz};
+};
+
+TEST(LocalWorld, FollowsFramesFromAKeyframeOn) {
+  FakeWorld server;
+  LocalWorld world;
+  server.Next();
+  EXPECT_FALSE(world.current());
+  ASSERT_TRUE(world.Apply(server.Keyframe(), kTickRateHz).ok());
+  for (int n = 0; n < 10; ++n) {
+    ASSERT_TRUE(world.Apply(server.Next(), kTickRateHz).ok());
+    const auto view = world.view();
+    const double t = server.time().Seconds();
+    for (const Vec2d place : {Vec2d{0.0, 1.0}, Vec2d{3.26, 7.31}, Vec2d{-9.9, 20.0}}) {
+      EXPECT_NEAR(view->HeightAt(place, server.time()), FakeWorld::Height(place, t), 1e-3 + 1e-6);
+    }
+    const wire::BodyTable::Body* boat = view->FindBody(5);
+    ASSERT_NE(boat, nullptr);
+    EXPECT_EQ(boat->info->name, "boat");
+    EXPECT_NEAR(boat->At(server.time()).position_m.x, 2.0 * t, 6e-3);
+  }
+  EXPECT_TRUE(world.current());
+  EXPECT_EQ(world.view()->water_level_m(), 0.75);
+}
+
+TEST(LocalWorld, HeightsAreSmoothBetweenFramesAndZeroOutside) {
+  FakeWorld server;
+  LocalWorld world;
+  server.Next();
+  ASSERT_TRUE(world.Apply(server.Keyframe(), kTickRateHz).ok());
+  const SimTime first = server.time();
+  ASSERT_TRUE(world.Apply(server.Next(), kTickRateHz).ok());
+  const SimTime second = server.time();
+  const auto view = world.view();
+  const Vec2d place{4.0, 4.0};
+  const double a = view->HeightAt(place, first), b = view->HeightAt(place, second);
+  EXPECT_GT(b, a);
+  const SimTime middle{(first.flicks + second.flicks) / 2};
+  EXPECT_NEAR(view->HeightAt(place, middle), 0.5 * (a + b), 1e-9);
+  EXPECT_EQ(view->HeightAt(place, SimTime::FromSeconds(100.0)), b);
+  EXPECT_EQ(view->HeightAt(place, SimTime::FromSeconds(-100.0)), a);
+  EXPECT_EQ(view->HeightAt({-17.0, 4.0}, second), 0.0);
+  EXPECT_EQ(view->HeightAt({1e300, -1e300}, second), 0.0);
+  EXPECT_GT(view->FoamAt({20.0, 10.0}), 0.0);
+}
+
+TEST(LocalWorld, AViewStaysAsItWas) {
+  FakeWorld server;
+  LocalWorld world;
+  server.Next();
+  ASSERT_TRUE(world.Apply(server.Keyframe(), kTickRateHz).ok());
+  const auto view = world.view();
+  const double before = view->HeightAt({1.0, 1.0}, view->time());
+  for (int n = 0; n < 5; ++n) ASSERT_TRUE(world.Apply(server.Next(), kTickRateHz).ok());
+  EXPECT_EQ(view->HeightAt({1.0, 1.0}, view->time()), before);
+  EXPECT_GT(world.view()->HeightAt({1.0, 1.0}, server.time()), before);
+}
+
+// Frames were lost: the stream's next frame is a keyframe, and then two worlds are one again.
+TEST(LocalWorld, AKeyframeHealsALoss) {
+  FakeWorld server;
+  LocalWorld faithful, late;
+  server.Next();
+  const wire::Frame start = server.Keyframe();
+  ASSERT_TRUE(faithful.Apply(start, kTickRateHz).ok());
+  ASSERT_TRUE(late.Apply(start, kTickRateHz).ok());
+  for (int n = 0; n < 7; ++n) ASSERT_TRUE(faithful.Apply(server.Next(), kTickRateHz).ok());
+  ASSERT_TRUE(late.Apply(server.Keyframe(), kTickRateHz).ok());
+  for (int n = 0; n < 5; ++n) {
+    const wire::Frame frame = server.Next();
+    ASSERT_TRUE(faithful.Apply(frame, kTickRateHz).ok());
+    ASSERT_TRUE(late.Apply(frame, kTickRateHz).ok());
+    EXPECT_EQ(late.view()->fields()[0].height_m, faithful.view()->fields()[0].height_m);
+    EXPECT_EQ(late.view()->FindBody(5)->newest.position_m,
+              faithful.view()->FindBody(5)->newest.position_m);
+  }
+}
+
+TEST(LocalWorld, AFrameThatDoesNotFitKeepsTheViewAndAsksForAKeyframe) {
+  FakeWorld server;
+  LocalWorld world;
+  EXPECT_EQ(world.Apply(server.Next(), kTickRateHz).code(), absl::StatusCode::kFailedPrecondition);
+  ASSERT_TRUE(world.Apply(server.Keyframe(), kTickRateHz).ok());
+  wire::Frame broken = server.Next();
+  broken.world->tiles.blobs = {"rubbish"};
+  const auto view = world.view();
+  EXPECT_EQ(world.Apply(broken, kTickRateHz).code(), absl::StatusCode::kInvalidArgument);
+  EXPECT_FALSE(world.current());
+  EXPECT_EQ(world.view(), view);
+  EXPECT_EQ(world.Apply(server.Next(), kTickRateHz).code(), absl::StatusCode::kFailedPrecondition);
+  EXPECT_TRUE(world.Apply(server.Keyframe(), kTickRateHz).ok());
+  EXPECT_TRUE(world.current());
+  wire::Frame past = server.Next();
+  past.world->tick = -100;
+  EXPECT_FALSE(world.Apply(past, kTickRateHz).ok());
+}
+
+// What a server sends that has no world: stamps, and keyframes without one.
+TEST(LocalWorld, AKeyframeWithoutAWorldEmptiesIt) {
+  FakeWorld server;
+  LocalWorld world;
+  server.Next();
+  ASSERT_TRUE(world.Apply(server.Keyframe(), kTickRateHz).ok());
+  wire::Frame stamp;
+  ASSERT_TRUE(world.Apply(stamp, kTickRateHz).ok());
+  EXPECT_EQ(world.view()->fields().size(), 1U);
+  stamp.keyframe = true;
+  ASSERT_TRUE(world.Apply(stamp, kTickRateHz).ok());
+  EXPECT_TRUE(world.view()->fields().empty());
+  EXPECT_TRUE(world.view()->bodies().empty());
+  EXPECT_EQ(world.view()->water_level_m(), 0.0);
+}
+
+TEST(LocalWorld, SprayIsTakenOnceAndBounded) {
+  FakeWorld server;
+  LocalWorld world;
+  server.Next();
+  ASSERT_TRUE(world.Apply(server.Keyframe(), kTickRateHz).ok());
+  for (int n = 0; n < 3; ++n) {
+    wire::Frame frame = server.Next();
+    frame.world->spray.assign(200, {{static_cast<double>(n), 0.0, 0.0}, {}, 1.0});
+    ASSERT_TRUE(world.Apply(frame, kTickRateHz).ok());
+  }
+  const std::vector<wire::Spray> spray = world.TakeSpray();
+  ASSERT_EQ(spray.size(), static_cast<std::size_t>(kSprayMax));
+  EXPECT_EQ(spray.front().position_m.x, 1.0);
+  EXPECT_EQ(spray.back().position_m.x, 2.0);
+  EXPECT_TRUE(world.TakeSpray().empty());
+}
+
+}  // namespace
+}  // namespace onesea::client
