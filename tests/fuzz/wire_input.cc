@@ -4,10 +4,10 @@
 #include <vector>
 
 #include "common/base/check.h"
-#include "common/wire/terrain_codec.h"
 #include "common/base/limits.h"
 #include "common/wire/body_table.h"
 #include "common/wire/frame.h"
+#include "common/wire/terrain_codec.h"
 #include "common/wire/tile_encoder.h"
 #include "common/wire/tile_store.h"
 

@@ -6,8 +6,7 @@
 #include <cmath>
 
 #include "common/base/limits.h"
-#include "common/wire/body_encoder.h"
-#include "common/wire/tile_encoder.h"
+#include "common/wire/world_encoder.h"
 
 namespace onesea::client {
 namespace {
@@ -39,20 +38,17 @@ class FakeWorld {
     boat.state.velocity_m_per_s = {2.0, 0.0, 0.0};
     boat.info = info_;
     wire::Frame frame;
-    frame.world.emplace();
-    frame.world->tick = tick_;
-    frame.world->tiles = tiles_.Encode({&field, 1});
-    frame.world->bodies = bodies_.Encode(tick_, {&boat, 1});
+    frame.world = encoder_.Encode({.tick = tick_,
+                                   .fields = {&field, 1},
+                                   .bodies = {&boat, 1},
+                                   .water_level_m = 0.75,
+                                   .spray = {}});
     return Sent(frame);
   }
   wire::Frame Keyframe() {
     wire::Frame frame;
     frame.keyframe = true;
-    frame.world.emplace();
-    frame.world->tick = tick_;
-    frame.world->tiles = tiles_.Keyframe();
-    frame.world->bodies = bodies_.Keyframe();
-    frame.world->water_level_m = 0.75;
+    frame.world = encoder_.Keyframe();
     return Sent(frame);
   }
   SimTime time() const { return TimeOfTick(tick_, kTickRateHz); }
@@ -71,8 +67,7 @@ class FakeWorld {
   Tick tick_ = 0;
   std::vector<float> heights_ = std::vector<float>(kRegion.cells.cells());
   std::shared_ptr<const wire::BodyInfo> info_ = Boat();
-  wire::TileEncoder tiles_;
-  wire::BodyEncoder bodies_{1.0 / kTickRateHz};
+  wire::WorldEncoder encoder_{1.0 / kTickRateHz};
 };
 
 TEST(LocalWorld, FollowsFramesFromAKeyframeOn) {

@@ -133,6 +133,7 @@ const std::vector<ForbiddenArrow>& ForbiddenArrows() {
        "^fftw3\\.h",
        {"common/sea/fft_fftw.cc", "tests/"},
        "one file to change per dependency"},
+      {{""}, "^zstd", {"common/wire/zstd_pack.cc"}, "one file to change per dependency"},
       {{""}, "^GLFW/", {"client/app/window.cc"}, "one file to change per dependency"},
       {{""},
        "^grpcpp/",

@@ -143,7 +143,7 @@ TEST_F(WireVectors, Terrain) {
   EXPECT_EQ(terrain->elevation_m, (std::vector<float>{-4.5f, -4.25f, -4.0f, -3.0f, -0.75f, 1.5f}));
 }
 
-// Two tiles of one group: the south-west one slopes by a step a column, the north-east one has foam.
+// Two tiles of one group: the south-west one slopes by a step a column, the north-east one foams.
 // Zstandard may pack the same otherwise in another version, so only the reading is exact.
 TEST_F(WireVectors, Tiles) {
   const RegionLayout region = {
