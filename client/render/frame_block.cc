@@ -13,7 +13,6 @@ namespace onesea::render {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kNearM = 0.05;
 constexpr double kCloudMapM = 21'000.0;
 
 double Fraction(double value) { return value - std::floor(value); }
@@ -160,7 +159,7 @@ void FillWaves(const RenderFrame& frame, const std::vector<SlopeStats>& stats, F
                             2.0 * kPi * Fraction(phase / (2.0 * kPi)));
   }
   block.counts = Pack(static_cast<double>(frame.cascades.size()), static_cast<double>(regular),
-                      frame.cascades.empty() ? 1.0 : frame.cascades[0].grid_size, kNearM);
+                      frame.cascades.empty() ? 1.0 : frame.cascades[0].grid_size, 0.0);
 }
 
 }  // namespace

@@ -35,12 +35,14 @@ struct FrameBlock {
   glm::vec4 fine_variance;  // xyz: slope variance held by no texture
   glm::vec4 grid;           // x: columns, y: first azimuth, z: azimuth step, w: log radius step
   glm::vec4 grid_rows;      // x: first row's log radius, y: 1 if row 0 is the nadir
-  glm::vec4 counts;         // x: cascades, y: regular waves, z: texels per side
+  glm::vec4 counts;         // x: cascades, y: regular waves, z: texels per side, w: patches
   glm::vec4 cascade_map[kRenderCascadesMax];   // xy: offset [turns], z: 1/length, w: log2 texel [m]
   glm::vec4 cascade_turn[kRenderCascadesMax];  // xy: cos, sin of the rotation
   glm::vec4
       cascade_share[kRenderCascadesMax];  // xyz: xx, yy, xy of its slope variance, over their trace
   glm::vec4 regular[kRenderRegularWavesMax];  // kx, ky, amplitude, phase at the eye
+  glm::vec4 patch_map[kRenderPatchesMax];     // xy: offset under the eye, zw: 1/extent [1/m]
+  glm::vec4 patch_cell[kRenderPatchesMax];    // x: log2 of the cell [m], y: layer
 };
 
 /// Slope variance [-] of one cascade, measured over its tile.

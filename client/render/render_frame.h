@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -60,6 +62,40 @@ struct FoamCells {
   Vec2d origin_m;  ///< corner of drifting cell (0, 0)
 };
 
+/// A rectangle of the interaction layer (wakes, splashes), added to the spectral sea. Samples are
+/// row-major from the most southern row, the most western column; outside, heights and foam are 0.
+/// Towards the rim the picture fades both out over a few cells.
+struct WaterPatch {
+  Vec2d first_cell_m;  ///< place of the sample in row 0, column 0
+  double cell_m = 0.5;
+  int columns = 0, rows = 0;
+  /// The same place, size and version as in the last picture: the same samples, not uploaded anew.
+  std::uint64_t version = 0;
+  std::span<const float> height_m;  ///< (rows x columns)
+  std::span<const float> foam;      ///< (rows x columns), share that is white, 0..1; or empty
+};
+
+/// One corner of a painted triangle, in the body frame.
+struct HullCorner {
+  std::array<float, 3> position_m{};
+  std::array<float, 3> normal{};  ///< unit, outwards
+  std::array<float, 3> albedo{};  ///< linear sRGB, 0..1
+  float gloss = 0.0f;             ///< 0 chalk .. 1 glass
+  float tinted = 0.0f;            ///< 1: albedo is multiplied by the instance's colour
+};
+
+/// What is drawn of a body; never changes once it has been drawn (renderers keep a copy).
+struct HullMesh {
+  std::vector<HullCorner> corners;  ///< three a triangle, counter-clockwise seen from outside
+};
+
+struct HullInstance {
+  std::shared_ptr<const HullMesh> mesh;
+  Vec3d position_m;                                 ///< of the body frame's origin
+  std::array<double, 4> rotation_wxyz{1, 0, 0, 0};  ///< unit quaternion, body to world
+  std::array<float, 3> colour{1, 1, 1};             ///< linear sRGB, of the tinted parts
+};
+
 struct Quality {
   int samples = 0;  ///< of the geometry pass: 4, 1 with edges smoothed afterwards, or 0 for
                     ///< 1 on a software renderer and 4 on a graphics card
@@ -80,12 +116,15 @@ struct RenderFrame {
   std::vector<CascadePlanes> cascades;        ///< 1..kRenderCascadesMax, longest first
   std::vector<RegularWaveNow> regular_waves;  ///< at most kRenderRegularWavesMax are drawn
   FoamCells foam;
+  std::vector<WaterPatch> patches;  ///< the first kRenderPatchesMax in view are drawn
+  std::vector<HullInstance> hulls;
   double exposure_stops = 0.0;  ///< on top of the metered exposure
   Quality quality;
 };
 
 inline constexpr int kRenderCascadesMax = 8;
 inline constexpr int kRenderRegularWavesMax = 32;
+inline constexpr int kRenderPatchesMax = 6;
 
 /// Borrows the planes of `fields`, which must hold sea::kRenderFields.
 CascadePlanes PlanesOf(const sea::CascadeFields& fields, const sea::Cascade& cascade);

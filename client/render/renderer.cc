@@ -8,12 +8,14 @@
 #include "client/render/atmosphere.h"
 #include "client/render/frame_block.h"
 #include "client/render/passes/classify.h"
+#include "client/render/passes/hulls.h"
 #include "client/render/passes/ripples.h"
 #include "client/render/passes/sky.h"
 #include "client/render/passes/smooth_steps.h"
 #include "client/render/passes/surface.h"
 #include "client/render/passes/surface_grid.h"
 #include "client/render/passes/tone_map.h"
+#include "client/render/patch_textures.h"
 #include "client/render/sea_textures.h"
 #include "common/base/check.h"
 #include "common/base/clock.h"
@@ -35,13 +37,14 @@ bool IsSoftware() {
 
 struct Renderer::Impl {
   Impl(RipplePass r, SurfaceGridPass g, ClassifyPass c, SkyPass s, SurfacePass w, SmoothStepsPass e,
-       ToneMapPass t)
+       HullPass h, ToneMapPass t)
       : ripples(std::move(r)),
         grid(std::move(g)),
         classify(std::move(c)),
         sky(std::move(s)),
         surface(std::move(w)),
         smooth_steps(std::move(e)),
+        hulls(std::move(h)),
         tone(std::move(t)) {}
 
   // The light of the last picture, kept until sun, clouds or haze change.
@@ -62,8 +65,10 @@ struct Renderer::Impl {
   SkyPass sky;
   SurfacePass surface;
   SmoothStepsPass smooth_steps;
+  HullPass hulls;
   ToneMapPass tone;
   SeaTextures sea;
+  PatchTextures patches;
   ColorTarget scene;
   VertexArray empty;
   Buffer block_buffer;
@@ -115,10 +120,11 @@ absl::StatusOr<std::unique_ptr<Renderer>> Renderer::Create() {
   ONESEA_ASSIGN_OR_RETURN(SkyPass sky, SkyPass::Create());
   ONESEA_ASSIGN_OR_RETURN(SurfacePass surface, SurfacePass::Create());
   ONESEA_ASSIGN_OR_RETURN(SmoothStepsPass smooth_steps, SmoothStepsPass::Create());
+  ONESEA_ASSIGN_OR_RETURN(HullPass hulls, HullPass::Create());
   ONESEA_ASSIGN_OR_RETURN(ToneMapPass tone, ToneMapPass::Create());
   return std::unique_ptr<Renderer>(new Renderer(std::make_unique<Impl>(
       std::move(ripples), std::move(grid), std::move(classify), std::move(sky), std::move(surface),
-      std::move(smooth_steps), std::move(tone))));
+      std::move(smooth_steps), std::move(hulls), std::move(tone))));
 }
 
 Renderer::Renderer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -153,15 +159,22 @@ void Renderer::Draw(const RenderFrame& frame, int width, int height, unsigned fr
 
   double displacement_max_m = 3.2 * std::sqrt(variance);
   for (const RegularWaveNow& wave : frame.regular_waves) displacement_max_m += wave.amplitude_m;
+  displacement_max_m += LargestHeightM(frame.patches);
   const OceanGrid grid = FitOceanGrid(frame.camera, width, height, frame.quality.pixels_per_column,
                                       displacement_max_m);
-  const FrameBlock block = MakeFrameBlock(frame, r.light, grid, stats, r.ripples.stats(),
-                                          RipplePass::kLengthM, width, height);
+  FrameBlock block = MakeFrameBlock(frame, r.light, grid, stats, r.ripples.stats(),
+                                    RipplePass::kLengthM, width, height);
+  if (!frame.patches.empty()) {
+    r.Pass("patches", [&] {
+      r.patches.Update(frame.patches, {frame.camera.position_m.x, frame.camera.position_m.y},
+                       block);
+    });
+  }
   r.UploadBlock(block);
   const int samples = frame.quality.samples == 0 ? r.samples_default : frame.quality.samples;
   r.scene.Resize(width, height, GL_RGBA16F);
   r.Pass("small sky", [&] { r.sky.DrawSmall(r.empty, block, width, height); });
-  r.Pass("geometry", [&] { r.grid.Draw(grid, r.sea, width, height, samples); });
+  r.Pass("geometry", [&] { r.grid.Draw(grid, r.sea, r.patches, width, height, samples); });
   r.Pass("classify", [&] { r.classify.Draw(r.empty, r.scene, r.grid); });
   r.Pass("sky", [&] { r.sky.Place(r.empty, block, r.scene); });
   r.Pass("surface", [&] {
@@ -170,10 +183,14 @@ void Renderer::Draw(const RenderFrame& frame, int width, int height, unsigned fr
     variant.ripples = frame.quality.ripples;
     variant.regular_waves = !frame.regular_waves.empty();
     variant.cascades = static_cast<int>(frame.cascades.size());
-    r.surface.Draw(r.empty, r.scene, r.grid, r.sea, r.ripples, r.sky, variant);
+    variant.patches = static_cast<int>(block.counts.w);
+    r.surface.Draw(r.empty, r.scene, r.grid, r.sea, r.patches, r.ripples, r.sky, variant);
   });
   if (samples == 1) {
     r.Pass("steps", [&] { r.smooth_steps.Draw(r.empty, r.scene, r.grid, r.classify); });
+  }
+  if (!frame.hulls.empty() && r.hulls.Prepare(frame, block, width, height)) {
+    r.Pass("hulls", [&] { r.hulls.Draw(r.empty, r.scene, r.grid, r.sea, r.patches, r.sky); });
   }
   r.Pass("tone map", [&] { r.tone.Draw(r.empty, r.scene, framebuffer, frame.quality.bloom); });
 }

@@ -160,4 +160,32 @@ void TestSea::FillFrame(double time_s, RenderFrame& frame) {
   frame.unresolved_mss = unresolved_mss_;
 }
 
+double TestSea::HeightAt(Vec2d place) const {
+  Vec2d from = place;
+  double height = 0.0;
+  for (int step = 0; step < 6; ++step) {  // until the displaced point lies above the place
+    Vec2d moved;
+    height = 0.0;
+    for (const Tile& tile : tiles_) {
+      const double c = std::cos(tile.rotation_rad), s = std::sin(tile.rotation_rad);
+      const double scale = grid_size_ / tile.length_m;
+      const double u = (c * from.x + s * from.y) * scale, v = (c * from.y - s * from.x) * scale;
+      const int i = static_cast<int>(std::floor(u)), j = static_cast<int>(std::floor(v));
+      const auto at = [&](std::size_t plane) {
+        const auto texel = [&](int di, int dj) {
+          const std::size_t n = Bin((i + di) % grid_size_, (j + dj) % grid_size_, grid_size_);
+          return static_cast<double>(tile.planes[plane][n]);
+        };
+        const double a = u - i, b = v - j;
+        return (1 - b) * ((1 - a) * texel(0, 0) + a * texel(1, 0)) +
+               b * ((1 - a) * texel(0, 1) + a * texel(1, 1));
+      };
+      height += at(0);
+      moved = moved + Vec2d{at(1), at(2)};
+    }
+    from = place - moved;
+  }
+  return height;
+}
+
 }  // namespace onesea::render

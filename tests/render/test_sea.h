@@ -15,6 +15,9 @@ class TestSea {
   /// Fields at `time_s`; the frame borrows them until the next call.
   void FillFrame(double time_s, RenderFrame& frame);
 
+  /// Height of the surface [m] above a place, at the time of the last FillFrame().
+  double HeightAt(Vec2d place) const;
+
  private:
   struct Tile {
     double length_m, rotation_rad, wavenumber_min, wavenumber_max;

@@ -14,10 +14,11 @@ namespace {
 
 absl::StatusOr<ShaderProgram> Build(const SurfaceVariant& variant) {
   const auto define = [](const char* name, int value) { return absl::StrCat(name, " ", value); };
-  const std::array<std::string, 6> definitions = {
+  const std::array<std::string, 7> definitions = {
       define("EDGES", variant.edges),     define("UNDERSIDE", variant.underside),
       define("RIPPLES", variant.ripples), define("REGULARS", variant.regular_waves),
-      define("SAMPLES", variant.samples), define("CASCADES", variant.cascades)};
+      define("SAMPLES", variant.samples), define("CASCADES", variant.cascades),
+      define("PATCHES", variant.patches)};
   return ShaderProgram::Build({"fullscreen.vert.glsl"},
                               {"frame.glsl", "sky.glsl", "optics.glsl", "surface.frag.glsl"},
                               {definitions.begin(), definitions.end()});
@@ -78,7 +79,8 @@ void SurfacePass::SetFoamWindow(const FoamCells& foam) {
 
 void SurfacePass::Draw(const VertexArray& empty, const ColorTarget& scene,
                        const SurfaceGridPass& geometry, const SeaTextures& sea,
-                       const RipplePass& ripples, const SkyPass& sky, SurfaceVariant variant) {
+                       const PatchTextures& patches, const RipplePass& ripples, const SkyPass& sky,
+                       SurfaceVariant variant) {
   const struct {
     const char* name;
     GLenum target;
@@ -87,6 +89,7 @@ void SurfacePass::Draw(const VertexArray& empty, const ColorTarget& scene,
       {"surface_map", geometry.target(), geometry.surface()},
       {"slope_map", GL_TEXTURE_2D_ARRAY, sea.slope()},
       {"ripple_slope_map", GL_TEXTURE_2D, ripples.slope()},
+      {"patch_slope_map", GL_TEXTURE_2D_ARRAY, patches.slope()},
       {"foam_map", GL_TEXTURE_2D, foam_},
       {"foam_window_map", GL_TEXTURE_2D, foam_window_},
       {"sky_map", GL_TEXTURE_3D, sky.map()},

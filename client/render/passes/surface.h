@@ -8,6 +8,7 @@
 #include "client/render/passes/ripples.h"
 #include "client/render/passes/sky.h"
 #include "client/render/passes/surface_grid.h"
+#include "client/render/patch_textures.h"
 #include "client/render/sea_textures.h"
 #include "client/render/shader_program.h"
 
@@ -21,6 +22,7 @@ struct SurfaceVariant {
   bool regular_waves = false;
   int samples = 4;
   int cascades = 4;
+  int patches = 0;  ///< of the interaction layer, in view
   friend auto operator<=>(const SurfaceVariant&, const SurfaceVariant&) = default;
 };
 
@@ -33,8 +35,8 @@ class SurfacePass {
   /// Where ClassifyPass found water; `variant.edges` and `.samples` are filled in. A new
   /// variant is compiled on first use.
   void Draw(const VertexArray& empty, const ColorTarget& scene, const SurfaceGridPass& geometry,
-            const SeaTextures& sea, const RipplePass& ripples, const SkyPass& sky,
-            SurfaceVariant variant);
+            const SeaTextures& sea, const PatchTextures& patches, const RipplePass& ripples,
+            const SkyPass& sky, SurfaceVariant variant);
 
  private:
   SurfacePass();

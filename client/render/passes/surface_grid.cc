@@ -65,8 +65,8 @@ void SurfaceGridPass::UpdateIndices(const OceanGrid& grid) {
                GL_DYNAMIC_DRAW);
 }
 
-void SurfaceGridPass::Draw(const OceanGrid& grid, const SeaTextures& sea, int width, int height,
-                           int samples) {
+void SurfaceGridPass::Draw(const OceanGrid& grid, const SeaTextures& sea,
+                           const PatchTextures& patches, int width, int height, int samples) {
   Resize(width, height, samples);
   UpdateIndices(grid);
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
@@ -80,6 +80,8 @@ void SurfaceGridPass::Draw(const OceanGrid& grid, const SeaTextures& sea, int wi
   program_.Use();
   BindTexture(0, GL_TEXTURE_2D_ARRAY, sea.displacement());
   program_.SetSampler("displacement_map", 0);
+  BindTexture(1, GL_TEXTURE_2D_ARRAY, patches.height());
+  program_.SetSampler("patch_height_map", 1);
   glBindVertexArray(vertices_.id());
   glDrawElements(GL_TRIANGLES, index_count_, GL_UNSIGNED_INT, nullptr);
   glDisable(GL_DEPTH_TEST);

@@ -3,6 +3,7 @@
 #include "absl/status/statusor.h"
 #include "client/render/gl_objects.h"
 #include "client/render/ocean_grid.h"
+#include "client/render/patch_textures.h"
 #include "client/render/sea_textures.h"
 #include "client/render/shader_program.h"
 
@@ -15,7 +16,8 @@ class SurfaceGridPass {
  public:
   static absl::StatusOr<SurfaceGridPass> Create();
 
-  void Draw(const OceanGrid& grid, const SeaTextures& sea, int width, int height, int samples);
+  void Draw(const OceanGrid& grid, const SeaTextures& sea, const PatchTextures& patches, int width,
+            int height, int samples);
 
   const Texture& surface() const { return surface_; }
   /// Of a picture of one sample per pixel.

@@ -27,6 +27,8 @@ layout(std140) uniform Frame {
   vec4 cascade_turn[8];
   vec4 cascade_share[8];
   vec4 regular[32];
+  vec4 patch_map[6];
+  vec4 patch_cell[6];
 };
 
 const float kPi = 3.14159265;
@@ -42,4 +44,9 @@ vec2 tile_coordinate(int c, vec2 xy) {
   vec2 turn = cascade_turn[c].xy;
   vec2 local = vec2(turn.x * xy.x + turn.y * xy.y, turn.x * xy.y - turn.y * xy.x);
   return local * cascade_map[c].z + cascade_map[c].xy;
+}
+
+// Where the point `xy` of the water (relative to the eye) lies in patch `n` of the interaction layer.
+vec3 patch_coordinate(int n, vec2 xy) {
+  return vec3(xy * patch_map[n].zw + patch_map[n].xy, patch_cell[n].y);
 }

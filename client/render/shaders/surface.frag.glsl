@@ -4,6 +4,7 @@
 // the filter removed, plus that of waves which no texture holds, is the pixel's roughness.
 uniform sampler2DArray slope_map;
 uniform sampler2D ripple_slope_map;
+uniform sampler2DArray patch_slope_map;
 uniform sampler2D foam_window_map;
 uniform sampler2D foam_map;
 uniform sampler2D cloud_map;
@@ -20,6 +21,7 @@ struct Waves {
   float squeeze;   // trace of J: mean over the footprint
   vec3 variance;   // xx, yy, xy: of the slopes within the footprint
   float folding;   // variance of J within the footprint, of the cascades alone
+  float churned;   // share that wakes and splashes have made white
 };
 
 vec3 normal_of(Waves w) {
@@ -28,8 +30,9 @@ vec3 normal_of(Waves w) {
 
 // Straight code on purpose: software rasterisers run both sides of every branch, and a loop that
 // might end early costs them more than what it skips. CASCADES is a constant for the same reason.
-Waves gather(vec2 xy, float distance, float stretch) {
-  Waves w = Waves(vec2(0.0), 0.0, vec3(0.0), 0.0);
+// `xy` is the undisplaced point, `place` where it is now.
+Waves gather(vec2 xy, vec2 place, float distance, float stretch) {
+  Waves w = Waves(vec2(0.0), 0.0, vec3(0.0), 0.0, 0.0);
   // Footprint: the pixel, longer along the view than across, filtered by one round kernel between
   // the two. Beyond some stretch only the faces that look at the eye are seen, and they are not long.
   stretch = min(stretch, 14.0);
@@ -67,6 +70,17 @@ Waves gather(vec2 xy, float distance, float stretch) {
     float phase = dot(wave.xy, xy) + wave.w;
     w.slope -= wave.xy * wave.z * sin(phase);
     w.squeeze -= water_leaving.w * wave.z * length(wave.xy) * cos(phase);
+  }
+#endif
+#if PATCHES
+  // Slopes at a place, not at an undisplaced point: normal_of() divides by 1 + squeeze.
+  float stretched = max(1.0 + w.squeeze, 0.12);
+  for (int n = 0; n < PATCHES; ++n) {
+    float lod = max(footprint - patch_cell[n].x - 0.3, 0.0);
+    vec4 slope = textureLod(patch_slope_map, patch_coordinate(n, place), lod);
+    w.slope += slope.xy * stretched;
+    w.variance.xy += 0.5 * max(slope.w - dot(slope.xy, slope.xy), 0.0);
+    w.churned += slope.z;
   }
 #endif
   return w;
@@ -131,6 +145,9 @@ Foam foam_at(vec2 xy, Waves w, float fold, float footprint_log2) {
   float fresh = clamp((window - foam_level.x) * foam_level.y, 0.0, 1.0);
   // The old foam around it is lace with more holes than film.
   cover = mix(cover, max(0.80 * fresh, 0.26 * window), inside);
+#if PATCHES
+  cover = max(cover, 0.9 * min(w.churned, 1.0));
+#endif
 
   float nearness = clamp(1.6 - 0.4 * detail_lod, 0.0, 1.0);
   lace = 0.5 + nearness * (0.62 * (lace - 0.5) + 0.42 * (fine - 0.5)) + mix(1.0, 0.35, nearness) * (coarse - 0.5);
@@ -143,9 +160,9 @@ Foam foam_at(vec2 xy, Waves w, float fold, float footprint_log2) {
   return Foam(mask, clamp(cover * 0.8, 0.0, 1.0), mix(1.0, 0.72 + 0.5 * fine, froth));
 }
 
-vec3 shade_above(vec2 xy, float distance, float stretch, vec3 direction) {
+vec3 shade_above(vec2 xy, vec2 place, float distance, float stretch, vec3 direction) {
   vec3 v = -direction;
-  Waves w = gather(xy, distance, stretch);
+  Waves w = gather(xy, place, distance, stretch);
   vec3 n = normal_of(w);
   vec2 mean = -n.xy / n.z;
   Facets f = visible_facets(mean, w.variance, v);
@@ -185,8 +202,8 @@ vec3 shade_above(vec2 xy, float distance, float stretch, vec3 direction) {
 
 #if UNDERSIDE
 // Through the surface from below: Snell's window, and outside it the water mirrored.
-vec3 shade_below(vec2 xy, float distance, float stretch, vec3 direction) {
-  Waves w = gather(xy, distance, stretch);
+vec3 shade_below(vec2 xy, vec2 place, float distance, float stretch, vec3 direction) {
+  Waves w = gather(xy, place, distance, stretch);
   vec3 n = normal_of(w);
   float cosine = clamp(dot(n, direction), 0.0, 1.0);
   float sine2 = 1.34 * 1.34 * (1.0 - cosine * cosine);
@@ -208,15 +225,16 @@ vec3 water_body(vec3 direction) { return 3.0 * water_leaving.rgb * (1.0 + 0.6 * 
 
 // `s` as surface_grid.frag.glsl writes it.
 vec3 shade(vec4 s, vec3 direction) {
-  s.xy = direction.xy * min(abs(s.z), 1e5) - s.xy;
+  vec2 place = direction.xy * min(abs(s.z), 1e5);
+  s.xy = place - s.xy;
 #if UNDERSIDE
   s.z = (s.z < 0.0 ? -1.0 : 1.0) * clamp(abs(s.z), 0.01, 1e5);  // pixels without water, too
   s.w = max(s.w, 1.0);
-  vec3 above = shade_above(s.xy, abs(s.z), s.w, direction);
-  vec3 below = shade_below(s.xy, abs(s.z), s.w, direction);
+  vec3 above = shade_above(s.xy, place, abs(s.z), s.w, direction);
+  vec3 below = shade_below(s.xy, place, abs(s.z), s.w, direction);
   return s.z >= 0.0 ? above : below;
 #else
-  return shade_above(s.xy, s.z, s.w, direction);
+  return shade_above(s.xy, place, s.z, s.w, direction);
 #endif
 }
 

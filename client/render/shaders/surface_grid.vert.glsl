@@ -1,5 +1,6 @@
 // Places a vertex of the log-polar lattice on the displaced sea.
 uniform sampler2DArray displacement_map;
+uniform sampler2DArray patch_height_map;
 out vec2 displacement;  // horizontal [m]
 out vec3 offset_eye;    // surface point less the eye [m]
 
@@ -30,6 +31,11 @@ void main() {
 
   displacement = moved.xy;
   vec2 flat_xy = xy + moved.xy;
+  int patches = int(counts.w);
+  for (int n = 0; n < patches; ++n) {
+    float lod = max(spacing - patch_cell[n].x, 0.0);
+    moved.z += textureLod(patch_height_map, patch_coordinate(n, flat_xy), lod).r;
+  }
   float drop = dot(flat_xy, flat_xy) / (2.0 * kEarthRadius);
   vec3 world = vec3(flat_xy, moved.z - drop);
   offset_eye = world - eye.xyz;

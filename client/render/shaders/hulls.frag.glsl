@@ -1,0 +1,81 @@
+// Painted hulls in sun and sky light, cut off where the sea stands before them.
+#if SAMPLES > 1
+uniform sampler2DMS surface_map;
+#else
+uniform sampler2D depth_map;
+#endif
+in vec3 offset_eye;
+in vec3 facing;
+in vec3 paint;
+in vec2 gloss_above;
+in float depth;
+out vec4 radiance;
+
+// Share of the pixel that stands before the sea: hard at crests, soft along the waterline, where the
+// distance to the sea passes the hull's within a pixel or two.
+float before_sea(float distance) {
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  // How much farther the flat sea is one pixel higher up.
+  float pixel_m = distance * ray_forward.w;
+  float soft = pixel_m * clamp(distance / max(abs(offset_eye.z), 0.3), 1.0, 40.0);
+#if SAMPLES > 1
+  float share = 0.0;
+  for (int n = 0; n < SAMPLES; ++n) {
+    vec4 s = texelFetch(surface_map, pixel, n);
+    float sea = s.w > 0.5 ? abs(s.z) : 1e6;
+    share += clamp(0.5 + (sea - distance) / soft, 0.0, 1.0);
+  }
+  return share / float(SAMPLES);
+#else
+  float log_depth = texelFetch(depth_map, pixel, 0).r;
+  float sea = log_depth < 1.0 ? (exp2(log_depth * log2(1.0 + 120000.0 * 8.0)) - 1.0) / 8.0 : 1e6;
+  return clamp(0.5 + (sea * distance / depth - distance) / soft, 0.0, 1.0);
+#endif
+}
+
+void main() {
+  float distance = length(offset_eye);
+  float share = before_sea(distance);
+  if (share <= 0.0) discard;
+  vec3 direction = offset_eye / distance;
+  vec3 n = normalize(facing);
+  vec3 v = -direction;
+  n = dot(n, v) < 0.0 ? normalize(n - 1.02 * dot(n, v) * v) : n;  // smoothed normals may look away
+
+  // The last hand's breadth above the water is wet, and darker for it.
+  float above = gloss_above.y;
+  float wet = 1.0 - smoothstep(0.03, 0.16, above);
+  vec3 albedo = paint * mix(1.0, 0.6, wet);
+  float gloss = mix(gloss_above.x, 0.85, 0.7 * wet);
+
+  // Light: the sun, the sky's half above, and from below what the water gives back.
+  vec3 sea = kPi * water_leaving.rgb + 0.07 * sky_irradiance.rgb;
+  float up = 0.5 + 0.5 * n.z;
+  // Near the water a face sees the dark side of waves instead of the horizon's sky.
+  float open = mix(0.55, 1.0, smoothstep(-0.1, 0.9, above));
+  vec3 light = mix(sea, sky_irradiance.rgb * open, up * up * (3.0 - 2.0 * up));
+  float lit = max(dot(n, sun_direction.xyz), 0.0);
+  vec3 colour = albedo / kPi * (light + sun_irradiance.rgb * lit);
+
+  // Varnish: a mirror image of sky or sea, stronger at grazing angles; the sun's, spread by gloss.
+  float cosine = clamp(dot(n, v), 0.0, 1.0);
+  float grazing = 1.0 - cosine;
+  float grazing2 = grazing * grazing;
+  float fresnel = gloss * (0.035 + 0.7 * gloss * grazing2 * grazing2 * grazing);
+  vec3 r = reflect(direction, n);
+  vec3 above_sea = sky_at(normalize(vec3(r.xy, abs(r.z) + 0.02)), mix(0.55, 0.04, gloss));
+  vec3 seen = mix(water_leaving.rgb + 0.25 * above_sea, above_sea, smoothstep(-0.12, 0.1, r.z));
+  colour = mix(colour, seen, fresnel);
+  vec3 h = normalize(v + sun_direction.xyz);
+  float power = exp2(3.0 + 7.0 * gloss);
+  float spot = pow(max(dot(n, h), 0.0), power) * (power + 8.0) / (8.0 * kPi);
+  colour += min(sun_irradiance.rgb * (spot * lit * gloss * 0.05), vec3(30.0));
+
+  if (eye.z < 0.0) {
+    vec3 passed = exp(-distance * vec3(0.30, 0.09, 0.07));
+    colour = mix(3.0 * water_leaving.rgb * (1.0 + 0.6 * direction.z), colour, passed);
+  } else {
+    colour = through_air(colour, direction, distance);
+  }
+  radiance = vec4(colour * share, share);
+}
