@@ -14,7 +14,7 @@ namespace onesea::render {
 using SharedHullMesh = std::shared_ptr<const HullMesh>;
 
 /// A motor boat with bulwark, wheelhouse and outboard motor: vee bottom, raked stem, flat transom.
-/// The keel's lowest line is at z = 0, the deck at z = depth_m, midships at x = 0. The topsides take
+/// The keel's lowest line is at z = 0, the deck at z = depth_m, midships at x = 0. Topsides take
 /// the instance's colour.
 SharedHullMesh BoatModel(double length_m = 5.0, double beam_m = 2.0, double depth_m = 0.9);
 

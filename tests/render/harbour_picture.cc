@@ -1,4 +1,4 @@
-// Three boats, two wakes and what floats about: harbour_picture OUT.png [WIDTH HEIGHT SAMPLES VIEW].
+// Three boats, two wakes and what floats about: harbour_picture OUT.png [WIDTH HEIGHT SAMPLES VIEW]
 #include <cstdio>
 #include <cstdlib>
 

@@ -28,7 +28,7 @@ class TestWake {
   std::vector<float> height_m_, foam_;
 };
 
-/// Three boats and two wakes, a buoy, a crate, a barrel, a ball and a raft, all afloat on `sea`; the
+/// Three boats and two wakes, a buoy, a crate, a barrel, a ball and a raft, afloat on `sea`; the
 /// spans of `frame` are borrowed from `wakes`.
 void FillHarbour(TestSea& sea, const std::vector<TestWake>& wakes, RenderFrame& frame);
 std::vector<TestWake> HarbourWakes();
