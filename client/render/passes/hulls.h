@@ -17,8 +17,8 @@
 namespace onesea::render {
 
 /// Draws bodies over the finished sea: into a picture of their own of four samples a pixel, so
-/// that edges are smooth whatever the sea is drawn with, then over the scene. Where the sea stands before
-/// a hull is read from the geometry pass, so that sea and hulls need no common depth buffer.
+/// that edges are smooth whatever the sea is drawn with, then over the scene. Where the sea stands
+/// before a hull is read from the geometry pass: sea and hulls need no common depth buffer.
 class HullPass {
  public:
   static absl::StatusOr<HullPass> Create();
