@@ -1,5 +1,7 @@
 #include "server/world/water_patch.h"
 
+#include <algorithm>
+
 #include "common/base/check.h"
 #include "common/base/real_math.h"
 #include "server/world/water_sample-inl.h"
@@ -9,6 +11,7 @@ namespace onesea::world {
 void WaterPatch::SetCalm() {
   columns = rows = bands = 0;
   samples.clear();
+  highest_m = level_m;
 }
 
 void WaterPatch::Resize(int new_columns, int new_rows, int new_bands) {
@@ -17,7 +20,19 @@ void WaterPatch::Resize(int new_columns, int new_rows, int new_bands) {
   columns = new_columns;
   rows = new_rows;
   bands = new_bands;
-  samples.resize(static_cast<std::size_t>(4) * bands * columns * rows);
+  constexpr int kPadding = 8;  // so that whole vectors can be read
+  samples.resize(static_cast<std::size_t>(4) * bands * columns * rows + kPadding);
+  highest_m = std::numeric_limits<double>::infinity();
+}
+
+void WaterPatch::FindHighest() {
+  double highest = bands == 0 ? 0.0 : -std::numeric_limits<double>::infinity();
+  for (int n = 0; n < columns * rows; ++n) {
+    float height = 0.0f;
+    for (int b = 0; b < bands; ++b) height += samples[4 * (n * bands + b)];
+    highest = std::max(highest, double{height});
+  }
+  highest_m = level_m + highest;
 }
 
 WaterSampler::WaterSampler(const WaterPatch& of)

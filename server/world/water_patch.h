@@ -21,7 +21,8 @@
 namespace onesea::world {
 
 inline constexpr int kWaterBandsMax = 12;
-static_assert(kWaterBandsMax >= kCascadesMax + 2);  // cascades, regular waves, interaction layer
+static_assert(kWaterBandsMax >= kCascadesMax + 2 &&
+              kWaterBandsMax <= 16);  // cascades, regular waves, interaction layer
 
 struct WaterPatch {
   double west_m = 0.0, south_m = 0.0;  ///< place of the first sample
@@ -30,6 +31,8 @@ struct WaterPatch {
   double level_m = 0.0;                ///< mean level (tide) above z = 0
   Vec3d current_m_per_s;               ///< uniform here
   double depth_m = std::numeric_limits<double>::infinity();  ///< bottom below the mean level
+  /// No water is higher (above z = 0); what lies higher isn't looked at. Infinite: not known.
+  double highest_m = std::numeric_limits<double>::infinity();
   int bands = 0;
   std::array<double, kWaterBandsMax> wavenumber_rad_per_m{};
   /// (rows x columns x bands x 4) row-major from the south-west: height above the mean level and
@@ -41,6 +44,8 @@ struct WaterPatch {
   /// Makes room for the samples; keeps the memory of a larger patch. Pre: 2 <= columns, rows;
   /// 1 <= bands <= kWaterBandsMax.
   void Resize(int new_columns, int new_rows, int new_bands);
+  /// Finds `highest_m` of the samples: worth it where a hull has more vertices than they are.
+  void FindHighest();
   float* At(int column, int row) { return samples.data() + 4 * bands * (row * columns + column); }
 };
 
@@ -56,9 +61,10 @@ struct WaterSampler {
 
   const WaterPatch* patch;
   double cells_per_m;
-  float wavenumber[kWaterBandsMax];
-  float bottom_image[kWaterBandsMax];  ///< exp(-2kH)
-  bool deep;                           ///< no band feels the bottom
+  // Padded, so that whole vectors can be read.
+  float wavenumber[16];
+  float bottom_image[16];  ///< exp(-2kH)
+  bool deep;               ///< no band feels the bottom
 };
 
 /// Bilinear in the plane; outside the patch its edge. Cost: some 50 ns for 8 bands. Error of the

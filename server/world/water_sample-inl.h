@@ -30,7 +30,8 @@ inline WaterPoint Sample(const WaterSampler& sampler, Vec3d place) {
   const WaterPatch& patch = *sampler.patch;
   const double above_level_m = place.z - patch.level_m;
   if (patch.bands == 0) {
-    return {-above_level_m, std::max(0.0, -above_level_m), patch.current_m_per_s};
+    const double depth = patch.level_m - place.z;
+    return {depth, std::max(0.0, depth), patch.current_m_per_s};
   }
   const double u = std::clamp((place.x - patch.west_m) * sampler.cells_per_m, 0.0,
                               static_cast<double>(patch.columns - 1));

@@ -4,23 +4,21 @@
 #include <cmath>
 
 #include "common/sea/constants.h"
-#include "server/world/water_sample-inl.h"
 
 namespace onesea::world {
 namespace {
 
-using Vertex = WetScratch::Vertex;
-
 // Corner of a piece: the vertex or the place where an edge meets the surface.
 struct Corner {
   Vec3d at_m;
-  Vertex water;
+  double depth_m, head_m;
+  Vec3d relative_m_per_s;  // of the water to the hull
 };
 
 // Where the edge from wet `a` to dry `b` meets the surface; `share` is its place along the edge.
 Corner OnSurface(const Corner& a, const Corner& b, double share) {
   const auto mix = [&](Vec3d p, Vec3d q) { return p + share * (q - p); };
-  return {mix(a.at_m, b.at_m), {0.0, 0.0, mix(a.water.relative_m_per_s, b.water.relative_m_per_s)}};
+  return {mix(a.at_m, b.at_m), 0.0, 0.0, mix(a.relative_m_per_s, b.relative_m_per_s)};
 }
 
 }  // namespace
@@ -39,13 +37,28 @@ struct WetHull::Sums {
   Vec3d area_moment, area_relative;
   int wet = 0;
 
+  void Start(const std::array<double, kWetSums>& whole);
   void Add(const Corner& a, const Corner& b, const Corner& c, Vec3d normal, double area_m2);
 };
 
+void WetHull::Sums::Start(const std::array<double, kWetSums>& whole) {
+  const auto vector = [&](int at) { return Vec3d{whole[at], whole[at + 1], whole[at + 2]}; };
+  pressure_force = vector(kPressureForce);
+  pressure_torque = vector(kPressureTorque);
+  drag_force = vector(kDragForce);
+  drag_torque = vector(kDragTorque);
+  volume = whole[kVolume];
+  volume_moment = vector(kVolumeMoment);
+  raise = whole[kRaise];
+  area = whole[kArea];
+  area_moment = vector(kAreaMoment);
+  area_relative = vector(kAreaRelative);
+}
+
 void WetHull::Sums::Add(const Corner& a, const Corner& b, const Corner& c, Vec3d normal,
                         double area_m2) {
-  const double pa = a.water.head_m, pb = b.water.head_m, pc = c.water.head_m;
-  const double da = a.water.depth_m, db = b.water.depth_m, dc = c.water.depth_m;
+  const double pa = a.head_m, pb = b.head_m, pc = c.head_m;
+  const double da = a.depth_m, db = b.depth_m, dc = c.depth_m;
   const Vec3d sum = a.at_m + b.at_m + c.at_m;
   const double head = pa + pb + pc, depth = da + db + dc;
   const double twelfth = area_m2 * (1.0 / 12.0);
@@ -61,8 +74,7 @@ void WetHull::Sums::Add(const Corner& a, const Corner& b, const Corner& c, Vec3d
   volume_moment = volume_moment - upward * (depth * sum + da * a.at_m + db * b.at_m + dc * c.at_m);
   raise -= 0.5 * upward * (depth * depth + da * da + db * db + dc * dc);
 
-  const Vec3d w = (1.0 / 3.0) *
-                  (a.water.relative_m_per_s + b.water.relative_m_per_s + c.water.relative_m_per_s);
+  const Vec3d w = (1.0 / 3.0) * (a.relative_m_per_s + b.relative_m_per_s + c.relative_m_per_s);
   const Vec3d centre = (1.0 / 3.0) * sum;
   area += area_m2;
   area_moment = area_moment + area_m2 * centre;
@@ -85,11 +97,47 @@ WetHull::WetHull(const TriangleMesh& mesh, Vec3d centre_of_mass_m) {
     radius_m_ = std::max(radius_m_, Norm(vertices_m_.back()));
   }
   for (const auto& t : mesh.triangles) {
-    const Vec3d a = vertices_m_[t[0]], b = vertices_m_[t[1]], c = vertices_m_[t[2]];
-    const Vec3d twice = Cross(b - a, c - a);
+    for (int k = 0; k < 3; ++k) {
+      edge_max_m_ = std::max(edge_max_m_, Norm(vertices_m_[t[k]] - vertices_m_[t[(k + 1) % 3]]));
+    }
+    if (Norm(TwiceArea(t)) > 0.0) triangles_.push_back(t);  // a sliver has no force
+  }
+  // Blocks of triangles are then mostly all wet or all dry.
+  const auto height = [&](const auto& t) {
+    return vertices_m_[t[0]].z + vertices_m_[t[1]].z + vertices_m_[t[2]].z;
+  };
+  std::stable_sort(triangles_.begin(), triangles_.end(),
+                   [&](const auto& a, const auto& b) { return height(a) < height(b); });
+  FillBlocks();
+}
+
+Vec3d WetHull::TwiceArea(const std::array<std::uint32_t, 3>& triangle) const {
+  const Vec3d a = vertices_m_[triangle[0]];
+  return Cross(vertices_m_[triangle[1]] - a, vertices_m_[triangle[2]] - a);
+}
+
+void WetHull::FillBlocks() {
+  const auto padded = [](std::size_t n) { return (n + kWetBlock - 1) / kWetBlock * kWetBlock; };
+  mesh_.vertices = padded(vertices_m_.size());
+  mesh_.triangles = padded(triangles_.size());
+  for (auto* array : {&mesh_.x, &mesh_.y, &mesh_.z}) {
+    *array = sea::AllocateZeros<double>(mesh_.vertices);
+  }
+  for (auto* array : {&mesh_.normal_x, &mesh_.normal_y, &mesh_.normal_z, &mesh_.area}) {
+    *array = sea::AllocateZeros<double>(mesh_.triangles);
+  }
+  for (auto& corner : mesh_.corner) corner = sea::AllocateZeros<std::int64_t>(mesh_.triangles);
+  for (std::size_t n = 0; n < vertices_m_.size(); ++n) {
+    mesh_.x[n] = vertices_m_[n].x, mesh_.y[n] = vertices_m_[n].y, mesh_.z[n] = vertices_m_[n].z;
+  }
+  for (std::size_t n = 0; n < triangles_.size(); ++n) {
+    const Vec3d twice = TwiceArea(triangles_[n]);
     const double length = Norm(twice);
-    if (!(length > 0.0)) continue;  // a sliver has no force
-    triangles_.push_back({t, (1.0 / length) * twice, 0.5 * length});
+    mesh_.normal_x[n] = twice.x / length;
+    mesh_.normal_y[n] = twice.y / length;
+    mesh_.normal_z[n] = twice.z / length;
+    mesh_.area[n] = 0.5 * length;
+    for (int k = 0; k < 3; ++k) mesh_.corner[k][n] = triangles_[n][k];
   }
 }
 
@@ -100,9 +148,9 @@ void WetHull::Bounds(double height_m, Vec3d& low_m, Vec3d& high_m) const {
     low_m = {std::min(low_m.x, v.x), std::min(low_m.y, v.y), std::min(low_m.z, v.z)};
     high_m = {std::max(high_m.x, v.x), std::max(high_m.y, v.y), std::max(high_m.z, v.z)};
   };
-  for (const Triangle& t : triangles_) {
+  for (const auto& t : triangles_) {
     for (int k = 0; k < 3; ++k) {
-      const Vec3d a = vertices_m_[t.corners[k]], b = vertices_m_[t.corners[(k + 1) % 3]];
+      const Vec3d a = vertices_m_[t[k]], b = vertices_m_[t[(k + 1) % 3]];
       if (a.z <= height_m) include(a);
       if ((a.z <= height_m) != (b.z <= height_m)) {
         include(a + ((height_m - a.z) / (b.z - a.z)) * (b - a));
@@ -111,67 +159,57 @@ void WetHull::Bounds(double height_m, Vec3d& low_m, Vec3d& high_m) const {
   }
 }
 
-void WetHull::SampleVertices(const HullMotion& motion, const WaterPatch& water,
-                             WetScratch& scratch) const {
-  const WaterSampler sampler(water);
-  const Mat3d turn = ToMatrix(motion.pose.turn);
-  const Vec3d velocity = turn.TransposeTimes(motion.velocity_m_per_s);
-  const Vec3d spin = turn.TransposeTimes(motion.spin_rad_per_s);
-  if (scratch.vertices.size() < vertices_m_.size()) scratch.vertices.resize(vertices_m_.size());
-  Vertex* out = scratch.vertices.data();
-  for (const Vec3d& at : vertices_m_) {
-    const WaterPoint point = internal::Sample(sampler, motion.pose.centre_m + turn * at);
-    *out++ = {point.depth_m, point.head_m,
-              turn.TransposeTimes(point.velocity_m_per_s) - velocity - Cross(spin, at)};
+void WetHull::AddClipped(std::uint32_t triangle, const WetScratch& scratch, Sums& sums) const {
+  const auto& t = triangles_[triangle];
+  const auto wet = [&](int k) { return scratch.depth[t[k % 3]] > 0.0; };
+  const bool one = wet(0) + wet(1) + wet(2) == 1;
+  // Turn the triangle so that its odd corner comes first (one wet) or last (one dry).
+  int first = 0;
+  while (one ? !wet(first) : wet(first + 2)) ++first;
+  const auto corner = [&](int k) {
+    const std::uint32_t v = t[(first + k) % 3];
+    return Corner{vertices_m_[v],
+                  scratch.depth[v],
+                  scratch.head[v],
+                  {scratch.rx[v], scratch.ry[v], scratch.rz[v]}};
+  };
+  const auto share = [](const Corner& from, const Corner& to) {
+    return from.depth_m / (from.depth_m - to.depth_m);
+  };
+  const Corner a = corner(0), b = corner(1), c = corner(2);
+  const Vec3d normal{mesh_.normal_x[triangle], mesh_.normal_y[triangle], mesh_.normal_z[triangle]};
+  const double area = mesh_.area[triangle];
+  const double ac = share(a, c);
+  if (one) {
+    const double ab = share(a, b);
+    sums.Add(a, OnSurface(a, b, ab), OnSurface(a, c, ac), normal, area * ab * ac);
+  } else {
+    const double bc = share(b, c);
+    const Corner on_bc = OnSurface(b, c, bc);
+    sums.Add(a, b, on_bc, normal, area * bc);
+    sums.Add(a, on_bc, OnSurface(a, c, ac), normal, area * ac * (1.0 - bc));
   }
 }
 
 WetForces WetHull::Evaluate(const HullMotion& motion, const WaterPatch& water,
                             double density_kg_per_m3, const DragCoefficients& drag,
                             WetScratch& scratch) const {
-  SampleVertices(motion, water, scratch);
   const Mat3d turn = ToMatrix(motion.pose.turn);
+  const Vec3d velocity = turn.TransposeTimes(motion.velocity_m_per_s);
+  const Vec3d spin = turn.TransposeTimes(motion.spin_rad_per_s);
+  const double highest = water.bands == 0 ? water.level_m : water.highest_m;
+  scratch.Reserve(mesh_);
+  SampleVertices(mesh_, {motion.pose.centre_m, turn, velocity, spin, highest + 1.001 * edge_max_m_},
+                 WaterSampler(water), scratch);
   Sums sums;
   sums.up = turn.TransposeTimes({0.0, 0.0, 1.0});
   sums.drag = drag;
-  const auto corner = [&](std::uint32_t vertex) {
-    return Corner{vertices_m_[vertex], scratch.vertices[vertex]};
-  };
-  for (const Triangle& t : triangles_) {
-    const bool wet[3] = {scratch.vertices[t.corners[0]].depth_m > 0.0,
-                         scratch.vertices[t.corners[1]].depth_m > 0.0,
-                         scratch.vertices[t.corners[2]].depth_m > 0.0};
-    const int count = wet[0] + wet[1] + wet[2];
-    if (count == 0) continue;
-    ++sums.wet;
-    if (count == 3) {
-      sums.Add(corner(t.corners[0]), corner(t.corners[1]), corner(t.corners[2]), t.normal,
-               t.area_m2);
-      continue;
-    }
-    // Turn the triangle so that its odd corner comes last (one dry) or first (one wet).
-    int first = 0;
-    if (count == 1) {
-      while (!wet[first]) ++first;
-    } else {
-      while (wet[(first + 2) % 3]) ++first;
-    }
-    const Corner a = corner(t.corners[first]), b = corner(t.corners[(first + 1) % 3]),
-                 c = corner(t.corners[(first + 2) % 3]);
-    const auto share = [](const Corner& from, const Corner& to) {
-      return from.water.depth_m / (from.water.depth_m - to.water.depth_m);
-    };
-    const double ac = share(a, c);
-    if (count == 1) {
-      const double ab = share(a, b);
-      sums.Add(a, OnSurface(a, b, ab), OnSurface(a, c, ac), t.normal, t.area_m2 * ab * ac);
-    } else {
-      const double bc = share(b, c);
-      const Corner on_bc = OnSurface(b, c, bc);
-      sums.Add(a, b, on_bc, t.normal, t.area_m2 * bc);
-      sums.Add(a, on_bc, OnSurface(a, c, ac), t.normal, t.area_m2 * ac * (1.0 - bc));
-    }
-  }
+  std::array<double, kWetSums> whole;
+  sums.wet = SumSubmerged(
+      mesh_, {sums.up, drag.friction, drag.pressure, drag.suction, drag.planing}, scratch, whole);
+  sums.Start(whole);
+  for (std::uint32_t triangle : scratch.clipped) AddClipped(triangle, scratch, sums);
+  sums.wet += static_cast<int>(scratch.clipped.size());
 
   WetForces out;
   const double weight = density_kg_per_m3 * sea::kGravity, half = 0.5 * density_kg_per_m3;
@@ -188,8 +226,7 @@ WetForces WetHull::Evaluate(const HullMotion& motion, const WaterPatch& water,
   if (sums.area > 0.0) {
     const double inverse = 1.0 / sums.area;
     out.water_velocity_m_per_s =
-        inverse * sums.area_relative + turn.TransposeTimes(motion.velocity_m_per_s) +
-        Cross(turn.TransposeTimes(motion.spin_rad_per_s), inverse * sums.area_moment);
+        inverse * sums.area_relative + velocity + Cross(spin, inverse * sums.area_moment);
   }
   return out;
 }

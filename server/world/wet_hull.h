@@ -7,6 +7,7 @@
 #include "server/world/hull.h"
 #include "server/world/rigid_math.h"
 #include "server/world/water_patch.h"
+#include "server/world/wet_kernel.h"
 
 /// Forces of the water on the wetted part of a hull.
 ///
@@ -46,13 +47,7 @@ struct WetForces {
 };
 
 /// Working memory; one per thread, reused for every hull.
-struct WetScratch {
-  struct Vertex {
-    double depth_m, head_m;
-    Vec3d relative_m_per_s;  // of the water to the hull, body axes
-  };
-  std::vector<Vertex> vertices;
-};
+using WetScratch = WetVertices;
 
 /// A mesh prepared for stepping, about its centre of mass. Immutable; safe from any thread.
 class WetHull {
@@ -60,7 +55,7 @@ class WetHull {
   /// Pre: valid mesh (or at least one closed under water: an open rim in the air does no harm).
   WetHull(const TriangleMesh& mesh, Vec3d centre_of_mass_m);
 
-  /// Cost: 30 ns a wetted triangle; allocates only when `scratch` meets its largest hull yet.
+  /// Cost: some 40 ns a wetted triangle with nine bands, 25 in calm water; allocates only when `scratch` meets its largest hull yet.
   WetForces Evaluate(const HullMotion& motion, const WaterPatch& water, double density_kg_per_m3,
                      const DragCoefficients& drag, WetScratch& scratch) const;
 
@@ -71,17 +66,16 @@ class WetHull {
   std::size_t triangle_count() const { return triangles_.size(); }
 
  private:
-  struct Triangle {
-    std::array<std::uint32_t, 3> corners;
-    Vec3d normal;
-    double area_m2;
-  };
   struct Sums;
-  void SampleVertices(const HullMotion& motion, const WaterPatch& water, WetScratch& scratch) const;
+  Vec3d TwiceArea(const std::array<std::uint32_t, 3>& triangle) const;
+  void FillBlocks();
+  void AddClipped(std::uint32_t triangle, const WetScratch& scratch, Sums& sums) const;
 
-  std::vector<Vec3d> vertices_m_;  // from the centre of mass
-  std::vector<Triangle> triangles_;
+  std::vector<Vec3d> vertices_m_;                        // from the centre of mass
+  std::vector<std::array<std::uint32_t, 3>> triangles_;  // without slivers, lowest first
+  WetMesh mesh_;                                         // the same
   double radius_m_ = 0.0;
+  double edge_max_m_ = 0.0;
 };
 
 }  // namespace onesea::world

@@ -24,6 +24,7 @@ WaterPatch Sea(int bands) {
                            .to_rad = 0.7 * b};
     wave.Fill(3.0, patch, b);
   }
+  patch.FindHighest();
   return patch;
 }
 

@@ -9,6 +9,7 @@
 
 #include "common/ingest/file_bytes.h"
 #include "common/sea/constants.h"
+#include "hwy/targets.h"
 #include "server/world/hull_file.h"
 #include "server/world/hull_shapes.h"
 #include "server/world/hydrostatics.h"
@@ -245,6 +246,107 @@ TEST(WetHull, DragIsQuadraticAndRelative) {
   EXPECT_NEAR(drag({0, 2, 0}, {}, {0.01, 0, 0, 0}).y, -0.5 * kRho * 0.01 * 4.04 * 4, 0.5);
   EXPECT_NEAR(Norm(drag({1, 2, 0}, {1, 2, 0}, {0.01, 1, 1, 1})), 0.0, 1e-12);
   EXPECT_NEAR(drag({}, {-3, 0, 0}, {0, 0.8, 0.4, 0}).x, -0.5 * kRho * 1.2 * 2 * 9, 1e-6);
+}
+
+// Nine bands of waves about the origin.
+WaterPatch Chop(double depth_m) {
+  WaterPatch patch;
+  patch.cell_m = 0.5, patch.west_m = -6, patch.south_m = -6, patch.depth_m = depth_m;
+  patch.level_m = 0.1, patch.current_m_per_s = {0.3, 0.1, 0};
+  patch.Resize(25, 25, 9);
+  for (int b = 0; b < 9; ++b) {
+    const RegularWave wave{.amplitude_m = 0.2 / (1 + b),
+                           .wavenumber_rad_per_m = 0.05 * std::pow(1.6, b),
+                           .to_rad = 0.7 * b,
+                           .depth_m = depth_m};
+    wave.Fill(3.0, patch, b);
+  }
+  return patch;
+}
+const HullMotion kMoving{.pose = {{0.3, -0.4, 0.1}, AboutAxis({0.6, 0.8, 0}, 0.3)},
+                         .velocity_m_per_s = {3, 1, -1},
+                         .spin_rad_per_s = {0.1, 0.4, 0.2}};
+
+std::vector<double> Everything(const WetForces& f) {
+  std::vector<double> out{f.volume_m3, f.wet_area_m2, 1.0 * f.wet_triangles};
+  for (const Vec3d& v : {f.pressure_force_n, f.pressure_torque_n_m, f.drag_force_n,
+                         f.drag_torque_n_m, f.volume_centre_m, f.water_velocity_m_per_s}) {
+    for (double value : {v.x, v.y, v.z}) out.push_back(value);
+  }
+  return out;
+}
+
+// Not one bit differs between vector widths, nor when it is not known how high the water is.
+TEST(WetHull, SameBitsOnEverySimdTarget) {
+  for (const TriangleMesh& mesh : {BoatMesh({}), SphereMesh(2, 9), BoxMesh({1, 2, 3}, 1)}) {
+    for (const double depth : {std::numeric_limits<double>::infinity(), 4.0}) {
+      WaterPatch patch = Chop(depth);
+      const WetHull hull(mesh, {0.1, 0, 0.3});
+      WetScratch scratch;
+      std::vector<double> first;
+      for (int n = 0; n < 2; ++n) {
+        for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+          hwy::SetSupportedTargetsForTest(target);
+          const WetForces got = hull.Evaluate(kMoving, patch, kRho, {0.01, 0.8, 0.4, 0.3}, scratch);
+          if (first.empty()) first = Everything(got);
+          EXPECT_EQ(Everything(got), first) << hwy::TargetName(target);
+        }
+        hwy::SetSupportedTargetsForTest(0);
+        patch.FindHighest();
+      }
+      EXPECT_GT(first[0], 0.0);
+    }
+  }
+}
+
+// The vectorised vertices are SampleWater's, bit for bit.
+TEST(WetHull, VerticesAreSampleWaters) {
+  const TriangleMesh mesh = SphereMesh(2, 9);
+  for (const double depth : {std::numeric_limits<double>::infinity(), 4.0}) {
+    const WaterPatch patch = Chop(depth);
+    const WetHull hull(mesh, {});
+    WetScratch scratch;
+    hull.Evaluate(kMoving, patch, kRho, {}, scratch);
+    const Mat3d turn = ToMatrix(kMoving.pose.turn);
+    for (std::size_t n = 0; n < mesh.vertices.size(); ++n) {
+      const WaterPoint point =
+          SampleWater(WaterSampler(patch), kMoving.pose.centre_m + turn * mesh.vertices[n]);
+      EXPECT_EQ(scratch.depth[n], point.depth_m);
+      EXPECT_EQ(scratch.head[n], point.head_m);
+      const Vec3d relative = turn.TransposeTimes(point.velocity_m_per_s) -
+                             turn.TransposeTimes(kMoving.velocity_m_per_s) -
+                             Cross(turn.TransposeTimes(kMoving.spin_rad_per_s), mesh.vertices[n]);
+      EXPECT_EQ(scratch.rx[n], relative.x);
+      EXPECT_EQ(scratch.rz[n], relative.z);
+    }
+  }
+}
+
+// Every triangle cut into 144 and summed by their middles: what is left are the waves within a
+// triangle.
+TEST(WetHull, ForcesAreTheIntegralOverTheWettedSurface) {
+  const TriangleMesh mesh = SphereMesh(2, 9);
+  const WaterPatch patch = Chop(std::numeric_limits<double>::infinity());
+  const WaterSampler sampler(patch);
+  WetScratch scratch;
+  const WetForces got = WetHull(mesh, {}).Evaluate(kMoving, patch, kRho, {}, scratch);
+  const Mat3d turn = ToMatrix(kMoving.pose.turn);
+  Vec3d force;
+  constexpr int kFine = 12;
+  for (const auto& t : mesh.triangles) {
+    const Vec3d a = mesh.vertices[t[0]], b = mesh.vertices[t[1]], c = mesh.vertices[t[2]];
+    const Vec3d piece = (0.5 / (kFine * kFine)) * Cross(b - a, c - a);
+    for (int i = 0; i < kFine; ++i) {
+      for (int j = 0; j < 2 * (kFine - i) - 1; ++j) {
+        const double u = (i + (j % 2 ? 2.0 : 1.0) / 3) / kFine;
+        const double v = (j / 2 + (j % 2 ? 2.0 : 1.0) / 3) / kFine;
+        const Vec3d at = a + u * (b - a) + v * (c - a);
+        const double head = SampleWater(sampler, kMoving.pose.centre_m + turn * at).head_m;
+        force = force - (kRho * kGravity * head) * piece;
+      }
+    }
+  }
+  EXPECT_NEAR(Norm(got.pressure_force_n - force) / Norm(force), 0.0, 0.01);
 }
 
 }  // namespace

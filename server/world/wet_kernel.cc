@@ -1,0 +1,345 @@
+// Forces on hulls, many vertices and triangles at once.
+//
+// Vertices: places by lanes of doubles; then each vertex reads four records of the patch, all bands
+//   side by side, so that no gather is needed; decays by lanes of bands.
+// Triangles: lanes are triangles, corners are gathered. Sums are kept in eight parts and joined in
+//   one order, nothing is fused: the same bits on every SIMD target.
+// Triangles that cross the surface are few and stay scalar (wet_hull.cc).
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "server/world/wet_kernel.cc"
+#include "hwy/foreach_target.h"
+//
+#include <algorithm>
+#include <cstring>
+
+#include "hwy/highway.h"
+#include "server/world/wet_kernel.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace onesea::world {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using D = hn::CappedTag<double, kWetBlock>;
+using V = hn::Vec<D>;
+using DF = hn::CappedTag<float, 8>;
+constexpr int kRecordMax = 4 * kWaterBandsMax;
+
+struct Vec3v {
+  HWY_INLINE Vec3v() {}  // an implicit one would not get the target's attributes
+  HWY_INLINE Vec3v(V a, V b, V c) : x(a), y(b), z(c) {}
+  V x, y, z;
+};
+HWY_INLINE Vec3v Sum(Vec3v a, Vec3v b) {
+  return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
+}
+HWY_INLINE Vec3v Scaled(V s, Vec3v a) {
+  return {hn::Mul(s, a.x), hn::Mul(s, a.y), hn::Mul(s, a.z)};
+}
+HWY_INLINE V Product(Vec3v a, Vec3v b) {
+  return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
+}
+HWY_INLINE Vec3v CrossOf(Vec3v a, Vec3v b) {
+  return {hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y)),
+          hn::Sub(hn::Mul(a.z, b.x), hn::Mul(a.x, b.z)),
+          hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
+}
+HWY_INLINE Vec3v SetAll(Vec3d v) {
+  const D d;
+  return {hn::Set(d, v.x), hn::Set(d, v.y), hn::Set(d, v.z)};
+}
+
+// As ExpMinus in water_sample-inl.h, operation by operation.
+HWY_INLINE hn::Vec<DF> ExpMinus(hn::Vec<DF> x) {
+  const DF d;
+  const hn::RebindToSigned<DF> di;
+  const auto turns = hn::Mul(hn::Min(x, hn::Set(d, 80.0f)), hn::Set(d, 1.44269504f));
+  const auto whole = hn::ConvertTo(di, hn::Add(turns, hn::Set(d, 0.5f)));
+  const auto g = hn::Mul(hn::Sub(turns, hn::ConvertTo(d, whole)), hn::Set(d, -0.693147181f));
+  auto p = hn::Set(d, 1.0f / 720.0f);
+  for (const float c : {1.0f / 120.0f, 1.0f / 24.0f, 1.0f / 6.0f, 0.5f, 1.0f, 1.0f}) {
+    p = hn::Add(hn::Mul(p, g), hn::Set(d, c));
+  }
+  const auto power = hn::ShiftLeft<23>(hn::Sub(hn::Set(di, 127), whole));
+  return hn::Mul(p, hn::BitCast(d, power));
+}
+
+// exp(-kd) to cosh k(H - d) / cosh kH, and sinh k(H - d) / sinh kH.
+HWY_INLINE void FeelTheBottom(const WaterSampler& sampler, float* decay, float* vertical) {
+  const DF d;
+  const auto one = hn::Set(d, 1.0f);
+  for (int b = 0; b < sampler.patch->bands; b += static_cast<int>(hn::Lanes(d))) {
+    const auto image = hn::LoadU(d, sampler.bottom_image + b);
+    const auto down = hn::Max(hn::Load(d, decay + b), hn::Sqrt(image));
+    const auto up = hn::Div(image, down);
+    hn::Store(hn::Div(hn::Add(down, up), hn::Add(one, image)), d, decay + b);
+    hn::Store(hn::Div(hn::Sub(down, up), hn::Sub(one, image)), d, vertical + b);
+  }
+}
+
+struct Cell {
+  std::int64_t offset;  // of its south-west record, in floats
+  float wu, wv;
+};
+
+// Everything of one vertex but the body's own velocity; `above_m` is its height over the level.
+HWY_INLINE void SampleOne(const WaterSampler& sampler, const Cell& cell, double above_m,
+                          double* depth_m, double* head_m, Vec3d* velocity) {
+  const WaterPatch& patch = *sampler.patch;
+  const DF d;
+  const hn::CappedTag<float, 4> d4;
+  const int record = 4 * patch.bands;
+  const float* low = patch.samples.data() + cell.offset;
+  const float* high = low + record * patch.columns;
+  HWY_ALIGN float bands[kRecordMax + 8];
+  const auto wu = hn::Set(d, cell.wu), wv = hn::Set(d, cell.wv);
+  for (int n = 0; n < record; n += static_cast<int>(hn::Lanes(d))) {
+    const auto c00 = hn::LoadU(d, low + n), c10 = hn::LoadU(d, low + n + record);
+    const auto c01 = hn::LoadU(d, high + n), c11 = hn::LoadU(d, high + n + record);
+    const auto a = hn::Add(c00, hn::Mul(wu, hn::Sub(c10, c00)));
+    const auto b = hn::Add(c01, hn::Mul(wu, hn::Sub(c11, c01)));
+    hn::Store(hn::Add(a, hn::Mul(wv, hn::Sub(b, a))), d, bands + n);
+  }
+  float height = 0.0f;
+  for (int b = 0; b < patch.bands; ++b) height += bands[4 * b];
+  const double depth = double{height} - above_m;
+  HWY_ALIGN float decay[kWaterBandsMax + 8];
+  const auto below = hn::Set(d, static_cast<float>(std::max(0.0, depth)));
+  for (int b = 0; b < patch.bands; b += static_cast<int>(hn::Lanes(d))) {
+    hn::Store(ExpMinus(hn::Mul(hn::LoadU(d, sampler.wavenumber + b), below)), d, decay + b);
+  }
+  HWY_ALIGN float vertical[kWaterBandsMax + 8];
+  if (!sampler.deep) FeelTheBottom(sampler, decay, vertical);
+  HWY_ALIGN float sum[4];
+  for (int c = 0; c < 4; c += static_cast<int>(hn::Lanes(d4))) {
+    auto total = hn::Zero(d4);
+    for (int b = 0; b < patch.bands; ++b) {
+      total = hn::Add(total, hn::Mul(hn::Load(d4, bands + 4 * b + c), hn::Set(d4, decay[b])));
+    }
+    hn::Store(total, d4, sum + c);
+  }
+  if (!sampler.deep) {
+    sum[3] = 0.0f;
+    for (int b = 0; b < patch.bands; ++b) sum[3] += bands[4 * b + 3] * vertical[b];
+  }
+  *depth_m = depth;
+  *head_m = std::max(0.0, depth - (double{height} - double{sum[0]}));
+  *velocity = patch.current_m_per_s + Vec3d{sum[1], sum[2], sum[3]};
+}
+
+// World places of one block, and their cells in the patch.
+HWY_INLINE void PlaceBlock(const WetMesh& mesh, const WetMotion& motion,
+                           const WaterSampler& sampler, std::size_t first, Cell* cells,
+                           double* height_m) {
+  const D d;
+  const WaterPatch& patch = *sampler.patch;
+  const auto& m = motion.turn.m;
+  HWY_ALIGN double us[kWetBlock], vs[kWetBlock];
+  for (std::size_t n = 0; n < kWetBlock; n += hn::Lanes(d)) {
+    const V x = hn::Load(d, mesh.x.get() + first + n), y = hn::Load(d, mesh.y.get() + first + n),
+            z = hn::Load(d, mesh.z.get() + first + n);
+    const auto row = [&](int r, double centre) HWY_ATTR {
+      const V xy = hn::Add(hn::Mul(hn::Set(d, m[3 * r]), x), hn::Mul(hn::Set(d, m[3 * r + 1]), y));
+      return hn::Add(hn::Set(d, centre), hn::Add(xy, hn::Mul(hn::Set(d, m[3 * r + 2]), z)));
+    };
+    const auto cell = [&](V at, double origin, int count) HWY_ATTR {
+      const V u = hn::Mul(hn::Sub(at, hn::Set(d, origin)), hn::Set(d, sampler.cells_per_m));
+      return hn::Min(hn::Max(u, hn::Zero(d)), hn::Set(d, static_cast<double>(count - 1)));
+    };
+    hn::Store(row(2, motion.centre_m.z), d, height_m + n);
+    hn::Store(cell(row(0, motion.centre_m.x), patch.west_m, patch.columns), d, us + n);
+    hn::Store(cell(row(1, motion.centre_m.y), patch.south_m, patch.rows), d, vs + n);
+  }
+  for (std::size_t n = 0; n < kWetBlock; ++n) {
+    const int column = std::min(static_cast<int>(us[n]), patch.columns - 2);
+    const int row = std::min(static_cast<int>(vs[n]), patch.rows - 2);
+    cells[n] = {std::int64_t{4} * patch.bands * (std::int64_t{row} * patch.columns + column),
+                static_cast<float>(us[n] - column), static_cast<float>(vs[n] - row)};
+  }
+}
+
+void SampleVerticesOf(const WetMesh& mesh, const WetMotion& motion, const WaterSampler& sampler,
+                      WetVertices& out) {
+  const D d;
+  const Vec3v velocity = SetAll(motion.velocity_m_per_s), spin = SetAll(motion.spin_rad_per_s);
+  const auto& m = motion.turn.m;
+  HWY_ALIGN double height[kWetBlock], water[3][kWetBlock];
+  for (std::size_t first = 0; first < mesh.vertices; first += kWetBlock) {
+    Cell cells[kWetBlock];
+    PlaceBlock(mesh, motion, sampler, first, cells, height);
+    for (std::size_t n = 0; n < kWetBlock; ++n) {
+      const std::size_t at = first + n;
+      if (height[n] > motion.dry_above_m) {
+        out.depth[at] = -1.0;
+        out.head[at] = water[0][n] = water[1][n] = water[2][n] = 0.0;
+        continue;
+      }
+      Vec3d flow = sampler.patch->current_m_per_s;
+      if (sampler.patch->bands == 0) {
+        out.depth[at] = sampler.patch->level_m - height[n];
+        out.head[at] = std::max(0.0, out.depth[at]);
+      } else {
+        SampleOne(sampler, cells[n], height[n] - sampler.patch->level_m, &out.depth[at],
+                  &out.head[at], &flow);
+      }
+      water[0][n] = flow.x, water[1][n] = flow.y, water[2][n] = flow.z;
+    }
+    for (std::size_t n = 0; n < kWetBlock; n += hn::Lanes(d)) {
+      const std::size_t at = first + n;
+      const Vec3v place(hn::Load(d, mesh.x.get() + at), hn::Load(d, mesh.y.get() + at),
+                        hn::Load(d, mesh.z.get() + at));
+      const V u = hn::Load(d, water[0] + n), v = hn::Load(d, water[1] + n),
+              w = hn::Load(d, water[2] + n);
+      const auto column = [&](int c) HWY_ATTR {
+        const V xy = hn::Add(hn::Mul(hn::Set(d, m[c]), u), hn::Mul(hn::Set(d, m[3 + c]), v));
+        return hn::Add(xy, hn::Mul(hn::Set(d, m[6 + c]), w));
+      };
+      const Vec3v turning = CrossOf(spin, place);
+      hn::Store(hn::Sub(hn::Sub(column(0), velocity.x), turning.x), d, out.rx.get() + at);
+      hn::Store(hn::Sub(hn::Sub(column(1), velocity.y), turning.y), d, out.ry.get() + at);
+      hn::Store(hn::Sub(hn::Sub(column(2), velocity.z), turning.z), d, out.rz.get() + at);
+    }
+  }
+}
+
+using Indices = hn::Vec<hn::RebindToSigned<D>>;
+HWY_INLINE V At(const sea::AlignedArray<double>& array, Indices index) {
+  return hn::GatherIndex(D(), array.get(), index);
+}
+
+HWY_INLINE void Accumulate(double (*sums)[kWetBlock], int which, std::size_t lane, V value) {
+  hn::Store(hn::Add(hn::Load(D(), sums[which] + lane), value), D(), sums[which] + lane);
+}
+HWY_INLINE void Accumulate3(double (*sums)[kWetBlock], int which, std::size_t lane, Vec3v value) {
+  Accumulate(sums, which, lane, value.x);
+  Accumulate(sums, which + 1, lane, value.y);
+  Accumulate(sums, which + 2, lane, value.z);
+}
+
+// As WetHull::Sums::Add, for lanes of triangles; `area` is 0 where a triangle is not wholly wet.
+HWY_INLINE void AddTriangles(const WetMesh& mesh, const WetVertices& w,
+                             const WetCoefficients& coefficients, std::size_t at, V area,
+                             const V (&depths)[3], const Indices (&index)[3],
+                             double (*sums)[kWetBlock]) {
+  const D d;
+  const std::size_t lane = at % kWetBlock;
+  const Vec3v normal(hn::Load(d, mesh.normal_x.get() + at), hn::Load(d, mesh.normal_y.get() + at),
+                     hn::Load(d, mesh.normal_z.get() + at));
+  V head = hn::Zero(d), depth = hn::Zero(d), squares = hn::Zero(d);
+  Vec3v sum = SetAll({}), by_head = SetAll({}), by_depth = SetAll({}), relative = SetAll({});
+  for (int k = 0; k < 3; ++k) {
+    const Vec3v place(At(mesh.x, index[k]), At(mesh.y, index[k]), At(mesh.z, index[k]));
+    const V p = At(w.head, index[k]);
+    head = hn::Add(head, p);
+    depth = hn::Add(depth, depths[k]);
+    squares = hn::Add(squares, hn::Mul(depths[k], depths[k]));
+    sum = Sum(sum, place);
+    by_head = Sum(by_head, Scaled(p, place));
+    by_depth = Sum(by_depth, Scaled(depths[k], place));
+    relative = Sum(relative, Vec3v(At(w.rx, index[k]), At(w.ry, index[k]), At(w.rz, index[k])));
+  }
+  const V twelfth = hn::Mul(area, hn::Set(d, 1.0 / 12.0));
+  const V minus_third = hn::Mul(hn::Set(d, -4.0), twelfth);
+  Accumulate3(sums, kPressureForce, lane, Scaled(hn::Mul(minus_third, head), normal));
+  const Vec3v moment = Scaled(twelfth, Sum(Scaled(head, sum), by_head));
+  Accumulate3(sums, kPressureTorque, lane, CrossOf(normal, moment));
+
+  const V upward = hn::Mul(Product(normal, SetAll(coefficients.up)), twelfth);
+  const V minus = hn::Sub(hn::Zero(d), upward);
+  Accumulate(sums, kVolume, lane, hn::Mul(hn::Mul(hn::Set(d, 4.0), minus), depth));
+  Accumulate3(sums, kVolumeMoment, lane, Scaled(minus, Sum(Scaled(depth, sum), by_depth)));
+  Accumulate(sums, kRaise, lane,
+             hn::Mul(hn::Mul(hn::Set(d, 0.5), minus), hn::Add(hn::Mul(depth, depth), squares)));
+
+  const V third = hn::Set(d, 1.0 / 3.0);
+  const Vec3v flow = Scaled(third, relative), centre = Scaled(third, sum);
+  Accumulate(sums, kArea, lane, area);
+  Accumulate3(sums, kAreaMoment, lane, Scaled(area, centre));
+  Accumulate3(sums, kAreaRelative, lane, Scaled(area, flow));
+  const V into = hn::Sub(hn::Zero(d), Product(flow, normal));
+  const V speed = hn::Sqrt(Product(flow, flow));
+  const V along = hn::Mul(hn::Set(d, coefficients.friction), speed);
+  const V front = hn::Add(hn::Mul(hn::Set(d, coefficients.pressure), into),
+                          hn::Mul(hn::Set(d, coefficients.planing), speed));
+  const V back = hn::Sub(hn::Zero(d), hn::Mul(hn::Set(d, coefficients.suction), into));
+  const V against = hn::IfThenElse(hn::Gt(into, hn::Zero(d)), front, back);
+  const Vec3v force = Scaled(
+      area, Sum(Scaled(along, flow), Scaled(hn::Mul(hn::Sub(along, against), into), normal)));
+  Accumulate3(sums, kDragForce, lane, force);
+  Accumulate3(sums, kDragTorque, lane, CrossOf(centre, force));
+}
+
+int SumSubmergedOf(const WetMesh& mesh, const WetCoefficients& coefficients, WetVertices& w,
+                   std::array<double, kWetSums>& out) {
+  const D d;
+  const hn::RebindToSigned<D> di;
+  HWY_ALIGN double sums[kWetSums][kWetBlock] = {};
+  HWY_ALIGN double least[kWetBlock], most[kWetBlock];
+  int whole = 0;
+  w.clipped.clear();
+  for (std::size_t first = 0; first < mesh.triangles; first += kWetBlock) {
+    for (std::size_t n = 0; n < kWetBlock; n += hn::Lanes(d)) {
+      const std::size_t at = first + n;
+      const Indices index[3] = {hn::Load(di, mesh.corner[0].get() + at),
+                                hn::Load(di, mesh.corner[1].get() + at),
+                                hn::Load(di, mesh.corner[2].get() + at)};
+      const V depths[3] = {At(w.depth, index[0]), At(w.depth, index[1]), At(w.depth, index[2])};
+      const V low = hn::Min(hn::Min(depths[0], depths[1]), depths[2]);
+      const V high = hn::Max(hn::Max(depths[0], depths[1]), depths[2]);
+      hn::Store(low, d, least + n);
+      hn::Store(high, d, most + n);
+      const auto wet = hn::Gt(low, hn::Zero(d));
+      if (hn::AllFalse(d, wet)) continue;
+      const V area = hn::IfThenElseZero(wet, hn::Load(d, mesh.area.get() + at));
+      AddTriangles(mesh, w, coefficients, at, area, depths, index, sums);
+    }
+    for (std::size_t n = 0; n < kWetBlock; ++n) {
+      if (mesh.area[first + n] == 0.0 || !(most[n] > 0.0)) continue;
+      if (least[n] > 0.0) {
+        ++whole;
+      } else {
+        w.clipped.push_back(static_cast<std::uint32_t>(first + n));
+      }
+    }
+  }
+  for (int s = 0; s < kWetSums; ++s) {
+    const double* part = sums[s];
+    out[s] =
+        ((part[0] + part[4]) + (part[2] + part[6])) + ((part[1] + part[5]) + (part[3] + part[7]));
+  }
+  return whole;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace onesea::world
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace onesea::world {
+
+HWY_EXPORT(SampleVerticesOf);
+HWY_EXPORT(SumSubmergedOf);
+
+void WetVertices::Reserve(const WetMesh& mesh) {
+  if (capacity < mesh.vertices) {
+    for (auto* array : {&depth, &head, &rx, &ry, &rz}) {
+      *array = sea::AllocateZeros<double>(mesh.vertices);
+    }
+    capacity = mesh.vertices;
+  }
+  clipped.reserve(mesh.triangles);
+}
+
+void SampleVertices(const WetMesh& mesh, const WetMotion& motion, const WaterSampler& water,
+                    WetVertices& out) {
+  HWY_DYNAMIC_DISPATCH(SampleVerticesOf)(mesh, motion, water, out);
+}
+
+int SumSubmerged(const WetMesh& mesh, const WetCoefficients& coefficients, WetVertices& vertices,
+                 std::array<double, kWetSums>& sums) {
+  return HWY_DYNAMIC_DISPATCH(SumSubmergedOf)(mesh, coefficients, vertices, sums);
+}
+
+}  // namespace onesea::world
+#endif  // HWY_ONCE
