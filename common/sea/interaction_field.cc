@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/base/check.h"
+
 namespace onesea::sea {
 namespace {
 
@@ -18,8 +20,8 @@ struct Weights {
 };
 
 struct Spot {
-  int column, row;  // of the cell to the south-west, relative to the field's
-  double x, y;      // beyond it, in cells, [0, 1)
+  int column = 0, row = 0;  // of the cell to the south-west, relative to the field's
+  double x = 0.0, y = 0.0;  // beyond it, in cells, [0, 1)
 };
 
 double Read(const InteractionField& field, std::span<const float> values, int column, int row) {
@@ -29,25 +31,42 @@ double Read(const InteractionField& field, std::span<const float> values, int co
   return values[static_cast<std::size_t>(row) * field.cells.columns + column];
 }
 
-struct Smooth {
-  double value = 0.0, along_x = 0.0, along_y = 0.0;  // along: per cell
+// The 4 x 4 values around a spot, row by row.
+struct Neighbours {
+  Neighbours(const InteractionField& field, std::span<const float> values, const Spot& spot) {
+    const int west = spot.column - 1, south = spot.row - 1;
+    const bool inside =
+        west >= 0 && south >= 0 && west + 4 <= field.cells.columns && south + 4 <= field.cells.rows;
+    for (int j = 0; j < 4; ++j) {
+      for (int i = 0; i < 4; ++i) {
+        at[j][i] =
+            inside ? values[static_cast<std::size_t>(south + j) * field.cells.columns + west + i]
+                   : Read(field, values, west + i, south + j);
+      }
+    }
+  }
+  double at[4][4];
 };
 
-Smooth Interpolate(const InteractionField& field, std::span<const float> values, const Spot& spot,
-                   const Weights& x, const Weights& y) {
-  Smooth sum;
+double Along(const double (&weight)[4], const double (&value)[4]) {
+  return ((weight[0] * value[0] + weight[1] * value[1]) + weight[2] * value[2]) +
+         weight[3] * value[3];
+}
+
+double Value(const Neighbours& cells, const Weights& x, const Weights& y) {
+  double rows[4];
+  for (int j = 0; j < 4; ++j) rows[j] = Along(x.value, cells.at[j]);
+  return Along(y.value, rows);
+}
+
+// Per cell.
+Vec2d Slope(const Neighbours& cells, const Weights& x, const Weights& y) {
+  double rows[4], slopes[4];
   for (int j = 0; j < 4; ++j) {
-    double value = 0.0, slope = 0.0;
-    for (int i = 0; i < 4; ++i) {
-      const double read = Read(field, values, spot.column + i - 1, spot.row + j - 1);
-      value += x.value[i] * read;
-      slope += x.slope[i] * read;
-    }
-    sum.value += y.value[j] * value;
-    sum.along_x += y.value[j] * slope;
-    sum.along_y += y.slope[j] * value;
+    rows[j] = Along(x.value, cells.at[j]);
+    slopes[j] = Along(x.slope, cells.at[j]);
   }
-  return sum;
+  return {Along(y.value, slopes), Along(y.slope, rows)};
 }
 
 double Bilinear(const InteractionField& field, std::span<const float> values, const Spot& spot) {
@@ -59,29 +78,49 @@ double Bilinear(const InteractionField& field, std::span<const float> values, co
   return south + spot.y * (along(spot.row + 1) - south);
 }
 
+// False beyond the field's reach; written so that NaN is.
+bool Locate(const InteractionField& field, Vec2d place, Spot& spot) {
+  const double u = place.x / field.cells.cell_m - static_cast<double>(field.cells.west);
+  const double v = place.y / field.cells.cell_m - static_cast<double>(field.cells.south);
+  if (!(u > -2.0 && v > -2.0 && u < field.cells.columns + 1 && v < field.cells.rows + 1)) {
+    return false;
+  }
+  const double column = std::floor(u), row = std::floor(v);
+  spot = {static_cast<int>(column), static_cast<int>(row), u - column, v - row};
+  return true;
+}
+
 }  // namespace
 
 InteractionSample SampleInteraction(const InteractionField& field, Vec2d place) {
   InteractionSample sample;
-  const double u = place.x / field.cells.cell_m - static_cast<double>(field.cells.west);
-  const double v = place.y / field.cells.cell_m - static_cast<double>(field.cells.south);
-  // Written so that NaN is outside.
-  if (!(u > -2.0 && v > -2.0 && u < field.cells.columns + 1 && v < field.cells.rows + 1)) {
-    return sample;
-  }
-  const double column = std::floor(u), row = std::floor(v);
-  const Spot spot{static_cast<int>(column), static_cast<int>(row), u - column, v - row};
+  Spot spot;
+  if (!Locate(field, place, spot)) return sample;
   const Weights x(spot.x), y(spot.y);
-  const Smooth height = Interpolate(field, field.height_m, spot, x, y);
-  sample.height_m = height.value;
-  sample.slope = {height.along_x / field.cells.cell_m, height.along_y / field.cells.cell_m};
+  const Neighbours heights(field, field.height_m, spot);
+  sample.height_m = Value(heights, x, y);
+  sample.slope = (1.0 / field.cells.cell_m) * Slope(heights, x, y);
   if (!field.velocity_x.empty()) {
-    sample.velocity = {Interpolate(field, field.velocity_x, spot, x, y).value,
-                       Interpolate(field, field.velocity_y, spot, x, y).value,
-                       Interpolate(field, field.velocity_z, spot, x, y).value};
+    sample.velocity = {Value(Neighbours(field, field.velocity_x, spot), x, y),
+                       Value(Neighbours(field, field.velocity_y, spot), x, y),
+                       Value(Neighbours(field, field.velocity_z, spot), x, y)};
   }
   if (!field.foam.empty()) sample.foam = Bilinear(field, field.foam, spot);
   return sample;
+}
+
+void InteractionHeights(const InteractionSnapshot& snapshot, std::span<const Vec2d> places,
+                        std::span<double> height_m) {
+  ONESEA_CHECK(places.size() == height_m.size());
+  std::fill(height_m.begin(), height_m.end(), 0.0);
+  for (const auto& field : snapshot.fields) {
+    for (std::size_t n = 0; n < places.size(); ++n) {
+      Spot spot;
+      if (!Locate(*field, places[n], spot)) continue;
+      height_m[n] +=
+          Value(Neighbours(*field, field->height_m, spot), Weights(spot.x), Weights(spot.y));
+    }
+  }
 }
 
 InteractionSample SampleInteraction(const InteractionSnapshot& snapshot, Vec2d place) {

@@ -274,7 +274,9 @@ std::shared_ptr<const sea::InteractionSnapshot> InteractionLayer::Snapshot(std::
       grid->solver->Velocity(field->velocity_x, field->velocity_y, field->velocity_z);
     }
     const auto foam = std::as_const(grid->foam).shares();
-    field->foam.assign(foam.begin(), foam.end());
+    if (std::any_of(foam.begin(), foam.end(), [](float share) { return share > 0.0f; })) {
+      field->foam.assign(foam.begin(), foam.end());
+    }
     snapshot->fields.push_back(std::move(field));
   }
   return snapshot;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/base/check.h"
+#include "server/world/interaction_layer.h"
 #include "server/world/wave_solver.h"
 
 namespace onesea::world {
@@ -80,6 +81,41 @@ void Velocities(benchmark::State& state) {
   }
 }
 BENCHMARK(Velocities)->Unit(benchmark::kMicrosecond);
+
+// A tick of a layer with one region and a wake in it, and what its readers pay.
+void LayerTick(benchmark::State& state) {
+  InteractionLayer layer({});
+  const std::vector<RegionAsk> asks{{.id = 1, .columns = kSide, .rows = kSide, .centre_m = {}}};
+  ONESEA_CHECK(layer.Place(asks).ok());
+  for (auto _ : state) {
+    ONESEA_CHECK(layer.Place(asks).ok());
+    layer.AddPressure({3.0, 2.0}, 2.0, 2e4);
+    layer.Step();
+    benchmark::DoNotOptimize(layer.Snapshot(0, false));
+  }
+}
+BENCHMARK(LayerTick)->Unit(benchmark::kMicrosecond);
+
+void Heights(benchmark::State& state) {
+  InteractionLayer layer({});
+  const std::vector<RegionAsk> asks{{.id = 1, .columns = kSide, .rows = kSide, .centre_m = {}}};
+  ONESEA_CHECK(layer.Place(asks).ok());
+  layer.AddSource({0, 0}, 5.0, 10.0);
+  layer.Step();
+  const auto snapshot = layer.Snapshot(0, false);
+  std::vector<Vec2d> places(1000);
+  for (std::size_t n = 0; n < places.size(); ++n) {
+    const auto i = static_cast<double>(n);
+    places[n] = {50.0 * std::sin(0.37 * i), 50.0 * std::cos(0.91 * i)};
+  }
+  std::vector<double> heights(places.size());
+  for (auto _ : state) {
+    sea::InteractionHeights(*snapshot, places, heights);
+    benchmark::DoNotOptimize(heights.data());
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(places.size()));
+}
+BENCHMARK(Heights)->Unit(benchmark::kMicrosecond);
 
 // The published iWave loop: 169 taps a cell, row by row, with a border that is left out; scalar, as
 // it was written.

@@ -71,6 +71,13 @@ TEST(InteractionField, FieldsAddAndNonsenseIsZero) {
   EXPECT_DOUBLE_EQ(sum.height_m,
                    SampleInteraction(*a, place).height_m + SampleInteraction(*b, place).height_m);
   EXPECT_DOUBLE_EQ(sum.foam, 1.0);
+  std::vector<Vec2d> places;
+  for (int n = 0; n < 50; ++n) places.push_back({n - 5.0, 0.3 * n - 12.0});
+  std::vector<double> heights(places.size());
+  InteractionHeights(snapshot, places, heights);
+  for (std::size_t n = 0; n < places.size(); ++n) {
+    EXPECT_EQ(heights[n], SampleInteraction(snapshot, places[n]).height_m);
+  }
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double inf = std::numeric_limits<double>::infinity();
   for (const Vec2d nonsense :
