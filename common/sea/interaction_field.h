@@ -37,7 +37,7 @@ struct InteractionSample {
 /// The sum over the fields. Heights and velocities are interpolated by Catmull-Rom splines of 4 x 4
 /// cells: exact at cells, slopes continuous. Cells beyond a field count as 0, so a field fades
 /// smoothly within two cells outside. Foam is interpolated bilinearly. Places that are not finite
-/// get zeros. The same bits on every machine. Cost of the height: 20 ns a field that holds the place.
+/// get zeros. The same bits on every machine. Cost of a height: 20 ns for a field.
 InteractionSample SampleInteraction(const InteractionSnapshot& snapshot, Vec2d place);
 
 /// Heights alone, to the same bits: what hulls ask for each tick. Pre: equal sizes.
