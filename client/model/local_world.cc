@@ -1,7 +1,6 @@
 #include "client/model/local_world.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
@@ -11,52 +10,34 @@
 namespace onesea::client {
 namespace {
 
-using Fields = WorldView::Fields;
-
-// Bilinear over the lattice; cells beyond the region count as 0.
-double Sample(const sea::CellRect& cells, const std::vector<float>& values, Vec2d place) {
-  const double x = place.x / cells.cell_m, y = place.y / cells.cell_m;
-  // Before the conversion to integers, which far places would overflow.
-  if (!(x > static_cast<double>(cells.west - 1) && x < static_cast<double>(cells.east()) &&
-        y > static_cast<double>(cells.south - 1) && y < static_cast<double>(cells.north()))) {
-    return 0.0;
-  }
-  const double floor_x = std::floor(x), floor_y = std::floor(y);
-  const double u = x - floor_x, v = y - floor_y;
-  const auto i = static_cast<std::int64_t>(floor_x), j = static_cast<std::int64_t>(floor_y);
-  const auto at = [&](std::int64_t column, std::int64_t row) {
-    if (!cells.Contains(column, row)) return 0.0;
-    const std::int64_t n = (row - cells.south) * cells.columns + column - cells.west;
-    return static_cast<double>(values[static_cast<std::size_t>(n)]);
-  };
-  return (1.0 - v) * ((1.0 - u) * at(i, j) + u * at(i + 1, j)) +
-         v * ((1.0 - u) * at(i, j + 1) + u * at(i + 1, j + 1));
-}
-
-double SumOfHeights(const Fields& fields, Vec2d place) {
-  double height_m = 0.0;
+// A copy, since the store goes on changing.
+std::shared_ptr<const sea::InteractionSnapshot> Snapshot(std::span<const wire::RegionField> fields,
+                                                         Tick tick) {
+  auto snapshot = std::make_shared<sea::InteractionSnapshot>();
+  snapshot->tick = tick;
   for (const wire::RegionField& field : fields) {
-    height_m += Sample(field.layout.cells, field.height_m, place);
+    auto copy = std::make_shared<sea::InteractionField>();
+    copy->cells = field.layout.cells;
+    copy->height_m = field.height_m;
+    copy->foam = field.foam;
+    snapshot->fields.push_back(std::move(copy));
   }
-  return height_m;
+  return snapshot;
 }
 
 }  // namespace
 
-double WorldView::HeightAt(Vec2d place, SimTime time) const {
-  const double newest_m = SumOfHeights(*fields_, place);
-  if (time >= time_ || before_ == fields_) return newest_m;
+sea::InteractionSample WorldView::SampleAt(Vec2d place, SimTime time) const {
+  const sea::InteractionSample newest = sea::SampleInteraction(*newest_, place);
+  if (time >= time_ || before_ == newest_) return newest;
+  const sea::InteractionSample before = sea::SampleInteraction(*before_, place);
   const double span_s = (time_ - before_time_).Seconds();
-  const double share = std::max((time - before_time_).Seconds() / span_s, 0.0);
-  return (1.0 - share) * SumOfHeights(*before_, place) + share * newest_m;
-}
-
-double WorldView::FoamAt(Vec2d place) const {
-  double foam = 0.0;
-  for (const wire::RegionField& field : *fields_) {
-    foam = std::max(foam, Sample(field.layout.cells, field.foam, place));
-  }
-  return foam;
+  const double b = std::max((time - before_time_).Seconds() / span_s, 0.0), a = 1.0 - b;
+  sea::InteractionSample between;
+  between.height_m = a * before.height_m + b * newest.height_m;
+  between.slope = a * before.slope + b * newest.slope;
+  between.foam = a * before.foam + b * newest.foam;
+  return between;
 }
 
 absl::Status LocalWorld::Apply(const wire::Frame& frame, int tick_rate_hz) {
@@ -90,12 +71,12 @@ absl::Status LocalWorld::ApplyWorld(const wire::WorldUpdate& update, bool keyfra
   ONESEA_RETURN_IF_ERROR(next->bodies_.Apply(update.bodies, update.tick, tick_rate_hz, keyframe));
   next->before_time_ = next->time_;
   next->time_ = time;
-  next->before_ = next->fields_;
+  next->before_ = next->newest_;
   if (keyframe || update.tiles.layout || !update.tiles.blobs.empty()) {
-    next->fields_ = std::make_shared<const Fields>(tiles_.fields().begin(), tiles_.fields().end());
+    next->newest_ = Snapshot(tiles_.fields(), update.tick);
   }
   // After a gap nothing is known of the way here.
-  if (keyframe) next->before_ = next->fields_;
+  if (keyframe) next->before_ = next->newest_;
   if (update.water_level_m) next->water_level_m_ = *update.water_level_m;
   if (keyframe && !update.water_level_m) next->water_level_m_ = 0.0;
   AddSpray(update.spray);

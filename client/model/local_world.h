@@ -10,6 +10,7 @@
 #include "absl/synchronization/mutex.h"
 #include "common/base/sim_time.h"
 #include "common/base/vec.h"
+#include "common/sea/interaction_field.h"
 #include "common/wire/body_table.h"
 #include "common/wire/frame.h"
 #include "common/wire/tile_store.h"
@@ -20,17 +21,13 @@ namespace onesea::client {
 /// renderer takes one per picture.
 class WorldView {
  public:
-  using Fields = std::vector<wire::RegionField>;
+  /// The interaction layer at a place, to be added to the spectral sea: SampleInteraction, linear
+  /// in time between the last two updates and constant outside of them. Velocities are not
+  /// streamed: 0.
+  sea::InteractionSample SampleAt(Vec2d place, SimTime time) const;
 
-  /// Height of the interaction layer [m], to be added to the spectral sea: the sum of all regions,
-  /// bilinear between cells, linear in time between the last two updates and constant outside of
-  /// them; 0 outside of every region. Pre: finite place.
-  double HeightAt(Vec2d place, SimTime time) const;
-  /// Share of the surface that foam of the interaction layer covers, [0, 1]; of the last update.
-  double FoamAt(Vec2d place) const;
-
-  /// Of the last update; for renderers that make textures of them.
-  const Fields& fields() const { return *fields_; }
+  /// Heights and foam of the last update; for renderers that make textures of them.
+  const sea::InteractionSnapshot& interaction() const { return *newest_; }
   /// One's place and motion at a time: Body::At. Ascending by id.
   std::span<const wire::BodyTable::Body> bodies() const { return bodies_.bodies(); }
   const wire::BodyTable::Body* FindBody(std::uint32_t id) const { return bodies_.Find(id); }
@@ -40,8 +37,9 @@ class WorldView {
  private:
   friend class LocalWorld;
   SimTime before_time_, time_;
-  std::shared_ptr<const Fields> before_ = std::make_shared<const Fields>();
-  std::shared_ptr<const Fields> fields_ = before_;
+  std::shared_ptr<const sea::InteractionSnapshot> before_ =
+      std::make_shared<const sea::InteractionSnapshot>();
+  std::shared_ptr<const sea::InteractionSnapshot> newest_ = before_;
   wire::BodyTable bodies_;
   double water_level_m_ = 0.0;
 };

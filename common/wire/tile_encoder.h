@@ -27,7 +27,8 @@ struct TileTolerance {
 /// within half a step in a tile just sent, up to 32767 steps. A tile within height_steps of zero is
 /// sent as calm once and costs nothing from then on.
 ///
-/// Allocates when a region appears, and until the bytes have found their size. Not thread-safe.
+/// Allocates when a region appears or changes its sides, and until the bytes have found their size.
+/// Not thread-safe.
 class TileEncoder {
  public:
   explicit TileEncoder(const TileTolerance& tolerance = {});

@@ -1,5 +1,7 @@
 #include "common/wire/tile_grid.h"
 
+#include <utility>
+
 #include "absl/strings/str_cat.h"
 #include "common/base/check.h"
 #include "common/wire/bounds.h"
@@ -54,8 +56,7 @@ absl::Status ValidateLayout(std::span<const RegionLayout> layout) {
 }
 
 bool Continues(const RegionLayout& a, const RegionLayout& b) {
-  return a.id == b.id && a.height_step_m == b.height_step_m && a.cells.cell_m == b.cells.cell_m &&
-         a.cells.columns == b.cells.columns && a.cells.rows == b.cells.rows;
+  return a.id == b.id && a.height_step_m == b.height_step_m && a.cells.cell_m == b.cells.cell_m;
 }
 
 void Tile::CalmHeights() {
@@ -81,6 +82,9 @@ TileGrid::TileGrid(const RegionLayout& layout)
 
 void TileGrid::MoveTo(const RegionLayout& layout) {
   ONESEA_CHECK(Continues(layout_, layout)) << "region " << layout.id;
+  if (layout.cells.columns != layout_.cells.columns || layout.cells.rows != layout_.cells.rows) {
+    Resize(layout);
+  }
   layout_ = layout;
   for (TileGroup& group : groups_) {
     for (int tile = 0; tile < kGroupTiles; ++tile) {
@@ -90,6 +94,17 @@ void TileGrid::MoveTo(const RegionLayout& layout) {
     }
   }
   NameSlots();
+}
+
+// Storage for other sides; groups that both have keep their tiles.
+void TileGrid::Resize(const RegionLayout& layout) {
+  TileGrid other(layout);
+  for (std::int64_t j = other.south_group(); j < other.north_group(); ++j) {
+    for (std::int64_t i = other.west_group(); i < other.east_group(); ++i) {
+      if (HasGroup(i, j)) other.Group(i, j) = Group(i, j);
+    }
+  }
+  *this = std::move(other);
 }
 
 void TileGrid::Clear() {

@@ -33,7 +33,7 @@ struct RegionLayout {
 /// field, value and limit.
 absl::Status ValidateLayout(std::span<const RegionLayout> layout);
 
-/// Does `b` go on where `a` was, perhaps moved? Otherwise it begins with calm tiles.
+/// Does `b` go on where `a` was, perhaps moved or with other sides? Otherwise its tiles are calm.
 bool Continues(const RegionLayout& a, const RegionLayout& b);
 
 struct Tile {
@@ -53,14 +53,14 @@ struct TileGroup {
 };
 
 /// All tiles that have a cell in the region. Storage wraps around, so a region moves without
-/// allocation.
+/// allocation; only new sides allocate.
 class TileGrid {
  public:
   /// Calm. Pre: ValidateLayout.
   explicit TileGrid(const RegionLayout& layout);
 
   const RegionLayout& layout() const { return layout_; }
-  /// Forgets the tiles that have no cell in the new place. Pre: Continues(layout(), layout).
+  /// Forgets the tiles that have no cell in the new rectangle. Pre: Continues(layout(), layout).
   void MoveTo(const RegionLayout& layout);
   /// All calm.
   void Clear();
@@ -82,6 +82,7 @@ class TileGrid {
  private:
   std::size_t Slot(std::int64_t i, std::int64_t j) const;
   void NameSlots();
+  void Resize(const RegionLayout& layout);
 
   RegionLayout layout_;
   int groups_wide_, groups_high_;  // enough for every alignment

@@ -66,6 +66,8 @@ void TileStore::MoveRegion(std::size_t region, const RegionLayout& layout) {
   TileGrid& grid = grids_[region];
   grid.MoveTo(layout);
   fields_[region].layout = layout;
+  fields_[region].height_m.resize(layout.cells.cells());
+  fields_[region].foam.resize(layout.cells.cells());
   for (std::int64_t j = grid.south_group(); j < grid.north_group(); ++j) {
     for (std::int64_t i = grid.west_group(); i < grid.east_group(); ++i) {
       const TileGroup& group = grid.Group(i, j);

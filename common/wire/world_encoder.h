@@ -1,43 +1,63 @@
 #pragma once
 
+#include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "common/sea/interaction_field.h"
 #include "common/wire/body_encoder.h"
 #include "common/wire/tile_encoder.h"
 #include "common/wire/world_update.h"
 
 namespace onesea::wire {
 
-/// A session's world at one tick, as its streamer sees it. Spans are valid during the call.
+/// A session's world at one tick, as its streamer sees it.
 struct WorldState {
   Tick tick = 0;
-  std::span<const TileField> fields;  ///< all regions; see TileEncoder
-  std::span<const BodyView> bodies;   ///< all bodies, ascending by id; see BodyEncoder
+  const sea::InteractionSnapshot* interaction = nullptr;  ///< null: no regions
+  std::span<const BodyView> bodies;  ///< all bodies, ascending by id; see BodyEncoder
   double water_level_m = 0.0;
   std::span<const Spray> spray;  ///< since the last call; the first kSprayMax are told
+};
+
+struct WorldEncoderOptions {
+  TileTolerance tiles;
+  BodyTolerance bodies;
+  double height_step_m = 1e-3;
+  double coarse_cell_m = 1.0;        ///< regions with larger cells are far from anybody
+  double coarse_step_m = 4e-3;       ///< and get these steps,
+  int coarse_frames_per_update = 3;  ///< with every so manieth update
 };
 
 /// Everything that a stream of frames must remember to say only what changed. One per session, for
 /// all viewers; not thread-safe.
 ///
-/// Who watches nothing needs no Encode(): later updates and keyframes count from the last one.
+/// Regions have no names on the server: a region takes over the id, and so the tiles, of the one
+/// before that it overlaps most. While nobody watches nothing needs to be encoded: later updates
+/// and keyframes count from the last one.
 class WorldEncoder {
  public:
   /// `tick_s` is the length of a tick.
-  explicit WorldEncoder(double tick_s, const TileTolerance& tiles = {},
-                        const BodyTolerance& bodies = {})
-      : tiles_(tiles), bodies_(tick_s, bodies) {}
+  explicit WorldEncoder(double tick_s, const WorldEncoderOptions& options = {});
 
-  /// For receivers that have every update before. Pre: as the encoders' of tiles and bodies.
+  /// For receivers that have every update before. Pre: at most kRegionsMax fields that fit
+  /// ValidateLayout; bodies as BodyEncoder's.
   WorldUpdate Encode(const WorldState& state);
   /// What those receivers hold now, for a frame that is a keyframe. Any number of times.
   WorldUpdate Keyframe();
 
  private:
+  void NameRegions(const sea::InteractionSnapshot& snapshot);
+
+  WorldEncoderOptions options_;
   Tick tick_ = 0;
+  std::int64_t updates_ = 0;
   std::optional<double> water_level_m_;
+  std::uint32_t last_id_ = 0;
+  std::vector<RegionLayout> regions_, former_;
+  std::vector<TileField> fields_;
   TileEncoder tiles_;
   BodyEncoder bodies_;
 };

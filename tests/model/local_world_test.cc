@@ -12,26 +12,29 @@ namespace onesea::client {
 namespace {
 
 constexpr int kTickRateHz = 60;
-constexpr wire::RegionLayout kRegion = {
-    .id = 1, .cells = {.west = -32, .south = 0, .columns = 96, .rows = 64, .cell_m = 0.5}};
+constexpr sea::CellRect kCells = {
+    .west = -32, .south = 0, .columns = 96, .rows = 64, .cell_m = 0.5};
 
 // A server's side: a slope of water that rises, and a boat that goes east.
 class FakeWorld {
  public:
-  // Heights are linear in the place, so that bilinear interpolation is exact.
+  // Heights are linear in the place, so that every interpolation is exact.
   static double Height(Vec2d place, double t) { return 0.01 * place.x + 0.1 * t; }
 
   // As it goes over the wire: encoded and decoded.
   wire::Frame Next() {
     tick_ += 2;
     const double t = static_cast<double>(tick_) / kTickRateHz;
-    for (std::int64_t j = 0; j < kRegion.cells.rows; ++j) {
-      for (std::int64_t i = 0; i < kRegion.cells.columns; ++i) {
-        heights_[static_cast<std::size_t>(j * kRegion.cells.columns + i)] = static_cast<float>(
-            Height(kRegion.cells.PlaceOf(i + kRegion.cells.west, j + kRegion.cells.south), t));
+    for (std::int64_t j = 0; j < kCells.rows; ++j) {
+      for (std::int64_t i = 0; i < kCells.columns; ++i) {
+        heights_[static_cast<std::size_t>(j * kCells.columns + i)] =
+            static_cast<float>(Height(kCells.PlaceOf(i + kCells.west, j + kCells.south), t));
       }
     }
-    const wire::TileField field{kRegion, heights_, heights_};
+    auto field = std::make_shared<sea::InteractionField>();
+    field->cells = kCells;
+    field->height_m = field->foam = heights_;
+    const sea::InteractionSnapshot snapshot{tick_, {field}};
     wire::BodyView boat;
     boat.state.id = 5;
     boat.state.position_m = {2.0 * t, 1.0, 0.0};
@@ -39,7 +42,7 @@ class FakeWorld {
     boat.info = info_;
     wire::Frame frame;
     frame.world = encoder_.Encode({.tick = tick_,
-                                   .fields = {&field, 1},
+                                   .interaction = &snapshot,
                                    .bodies = {&boat, 1},
                                    .water_level_m = 0.75,
                                    .spray = {}});
@@ -65,7 +68,7 @@ class FakeWorld {
   }
 
   Tick tick_ = 0;
-  std::vector<float> heights_ = std::vector<float>(kRegion.cells.cells());
+  std::vector<float> heights_ = std::vector<float>(kCells.cells());
   std::shared_ptr<const wire::BodyInfo> info_ = Boat();
   wire::WorldEncoder encoder_{1.0 / kTickRateHz};
 };
@@ -81,7 +84,8 @@ TEST(LocalWorld, FollowsFramesFromAKeyframeOn) {
     const auto view = world.view();
     const double t = server.time().Seconds();
     for (const Vec2d place : {Vec2d{0.0, 1.0}, Vec2d{3.26, 7.31}, Vec2d{-9.9, 20.0}}) {
-      EXPECT_NEAR(view->HeightAt(place, server.time()), FakeWorld::Height(place, t), 1e-3 + 1e-6);
+      EXPECT_NEAR(view->SampleAt(place, server.time()).height_m, FakeWorld::Height(place, t),
+                  1.6e-3);
     }
     const wire::BodyTable::Body* boat = view->FindBody(5);
     ASSERT_NE(boat, nullptr);
@@ -102,15 +106,16 @@ TEST(LocalWorld, HeightsAreSmoothBetweenFramesAndZeroOutside) {
   const SimTime second = server.time();
   const auto view = world.view();
   const Vec2d place{4.0, 4.0};
-  const double a = view->HeightAt(place, first), b = view->HeightAt(place, second);
+  const double a = view->SampleAt(place, first).height_m,
+               b = view->SampleAt(place, second).height_m;
   EXPECT_GT(b, a);
   const SimTime middle{(first.flicks + second.flicks) / 2};
-  EXPECT_NEAR(view->HeightAt(place, middle), 0.5 * (a + b), 1e-9);
-  EXPECT_EQ(view->HeightAt(place, SimTime::FromSeconds(100.0)), b);
-  EXPECT_EQ(view->HeightAt(place, SimTime::FromSeconds(-100.0)), a);
-  EXPECT_EQ(view->HeightAt({-17.0, 4.0}, second), 0.0);
-  EXPECT_EQ(view->HeightAt({1e300, -1e300}, second), 0.0);
-  EXPECT_GT(view->FoamAt({20.0, 10.0}), 0.0);
+  EXPECT_NEAR(view->SampleAt(place, middle).height_m, 0.5 * (a + b), 1e-9);
+  EXPECT_EQ(view->SampleAt(place, SimTime::FromSeconds(100.0)).height_m, b);
+  EXPECT_EQ(view->SampleAt(place, SimTime::FromSeconds(-100.0)).height_m, a);
+  EXPECT_EQ(view->SampleAt({-18.0, 4.0}, second).height_m, 0.0);
+  EXPECT_EQ(view->SampleAt({1e300, -1e300}, second).height_m, 0.0);
+  EXPECT_GT(view->SampleAt({20.0, 10.0}, second).foam, 0.0);
 }
 
 TEST(LocalWorld, AViewStaysAsItWas) {
@@ -119,10 +124,10 @@ TEST(LocalWorld, AViewStaysAsItWas) {
   server.Next();
   ASSERT_TRUE(world.Apply(server.Keyframe(), kTickRateHz).ok());
   const auto view = world.view();
-  const double before = view->HeightAt({1.0, 1.0}, view->time());
+  const double before = view->SampleAt({1.0, 1.0}, view->time()).height_m;
   for (int n = 0; n < 5; ++n) ASSERT_TRUE(world.Apply(server.Next(), kTickRateHz).ok());
-  EXPECT_EQ(view->HeightAt({1.0, 1.0}, view->time()), before);
-  EXPECT_GT(world.view()->HeightAt({1.0, 1.0}, server.time()), before);
+  EXPECT_EQ(view->SampleAt({1.0, 1.0}, view->time()).height_m, before);
+  EXPECT_GT(world.view()->SampleAt({1.0, 1.0}, server.time()).height_m, before);
 }
 
 // Frames were lost: the stream's next frame is a keyframe, and then two worlds are one again.
@@ -139,7 +144,8 @@ TEST(LocalWorld, AKeyframeHealsALoss) {
     const wire::Frame frame = server.Next();
     ASSERT_TRUE(faithful.Apply(frame, kTickRateHz).ok());
     ASSERT_TRUE(late.Apply(frame, kTickRateHz).ok());
-    EXPECT_EQ(late.view()->fields()[0].height_m, faithful.view()->fields()[0].height_m);
+    EXPECT_EQ(late.view()->interaction().fields[0]->height_m,
+              faithful.view()->interaction().fields[0]->height_m);
     EXPECT_EQ(late.view()->FindBody(5)->newest.position_m,
               faithful.view()->FindBody(5)->newest.position_m);
   }
@@ -172,10 +178,10 @@ TEST(LocalWorld, AKeyframeWithoutAWorldEmptiesIt) {
   ASSERT_TRUE(world.Apply(server.Keyframe(), kTickRateHz).ok());
   wire::Frame stamp;
   ASSERT_TRUE(world.Apply(stamp, kTickRateHz).ok());
-  EXPECT_EQ(world.view()->fields().size(), 1U);
+  EXPECT_EQ(world.view()->interaction().fields.size(), 1U);
   stamp.keyframe = true;
   ASSERT_TRUE(world.Apply(stamp, kTickRateHz).ok());
-  EXPECT_TRUE(world.view()->fields().empty());
+  EXPECT_TRUE(world.view()->interaction().fields.empty());
   EXPECT_TRUE(world.view()->bodies().empty());
   EXPECT_EQ(world.view()->water_level_m(), 0.0);
 }

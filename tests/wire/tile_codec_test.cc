@@ -161,6 +161,7 @@ TEST(TileCodec, RegionsMoveByAnyNumberOfCellsAndVanish) {
     if (frame == 30) regions.erase(regions.begin() + 1);
     if (frame == 40) regions.insert(regions.begin(), Region(3, -7, 3));
     if (frame == 50) regions[0] = Region(3, -7, 3, 64, 64);
+    if (frame == 55) regions[1] = Region(1, regions[1].cells.west - 32, -32, 192, 128);
     std::vector<std::vector<float>> waves;
     std::vector<TileField> fields;
     for (const RegionLayout& region : regions) waves.push_back(Waves(region.cells, t));
@@ -172,6 +173,23 @@ TEST(TileCodec, RegionsMoveByAnyNumberOfCellsAndVanish) {
       ASSERT_LE(Worst(store.fields()[n].height_m, waves[n]), 1e-3 + kRounding) << frame;
     }
   }
+}
+
+// The server's regions grow when bodies part and shrink when they meet: what both have goes on.
+TEST(TileCodec, ARegionThatGrowsKeepsItsTiles) {
+  const RegionLayout small = Region(1, 0, 0, 128, 64), large = Region(1, -64, 0, 192, 128);
+  TileEncoder encoder;
+  std::vector<float> waves = Waves(small.cells, 0.0);
+  const TileField first{small, waves, {}};
+  encoder.Encode({&first, 1});
+  std::vector<float> more(large.cells.cells());
+  for (std::size_t row = 0; row < 64; ++row) {
+    std::copy_n(waves.begin() + row * 128, 128, more.begin() + row * 192 + 64);
+  }
+  const TileField second{large, more, {}};
+  const TileUpdate& update = encoder.Encode({&second, 1});
+  EXPECT_TRUE(update.layout.has_value());
+  EXPECT_TRUE(update.blobs.empty());
 }
 
 TEST(TileCodec, AnAbsentSpanLeavesTheRegionAsItWasSent) {
