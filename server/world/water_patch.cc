@@ -20,7 +20,7 @@ void WaterPatch::Resize(int new_columns, int new_rows, int new_bands) {
   columns = new_columns;
   rows = new_rows;
   bands = new_bands;
-  constexpr int kPadding = 8;  // so that whole vectors can be read
+  constexpr int kPadding = 16;  // so that whole vectors can be read
   samples.resize(static_cast<std::size_t>(4) * bands * columns * rows + kPadding);
   highest_m = std::numeric_limits<double>::infinity();
 }

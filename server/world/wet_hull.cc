@@ -126,7 +126,12 @@ void WetHull::FillBlocks() {
   for (auto* array : {&mesh_.normal_x, &mesh_.normal_y, &mesh_.normal_z, &mesh_.area}) {
     *array = sea::AllocateZeros<double>(mesh_.triangles);
   }
-  for (auto& corner : mesh_.corner) corner = sea::AllocateZeros<std::int64_t>(mesh_.triangles);
+  for (int k = 0; k < 3; ++k) {
+    mesh_.corner[k] = sea::AllocateZeros<std::int64_t>(mesh_.triangles);
+    for (auto* array : {&mesh_.corner_x[k], &mesh_.corner_y[k], &mesh_.corner_z[k]}) {
+      *array = sea::AllocateZeros<double>(mesh_.triangles);
+    }
+  }
   for (std::size_t n = 0; n < vertices_m_.size(); ++n) {
     mesh_.x[n] = vertices_m_[n].x, mesh_.y[n] = vertices_m_[n].y, mesh_.z[n] = vertices_m_[n].z;
   }
@@ -137,7 +142,11 @@ void WetHull::FillBlocks() {
     mesh_.normal_y[n] = twice.y / length;
     mesh_.normal_z[n] = twice.z / length;
     mesh_.area[n] = 0.5 * length;
-    for (int k = 0; k < 3; ++k) mesh_.corner[k][n] = triangles_[n][k];
+    for (int k = 0; k < 3; ++k) {
+      const Vec3d at = vertices_m_[triangles_[n][k]];
+      mesh_.corner[k][n] = triangles_[n][k];
+      mesh_.corner_x[k][n] = at.x, mesh_.corner_y[k][n] = at.y, mesh_.corner_z[k][n] = at.z;
+    }
   }
 }
 

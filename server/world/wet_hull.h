@@ -55,7 +55,7 @@ class WetHull {
   /// Pre: valid mesh (or at least one closed under water: an open rim in the air does no harm).
   WetHull(const TriangleMesh& mesh, Vec3d centre_of_mass_m);
 
-  /// Cost: some 40 ns a wetted triangle with nine bands, 25 in calm water; allocates only when
+  /// Cost: some 35 ns a wetted triangle with nine bands, 21 in calm water; allocates only when
   /// `scratch` meets its largest hull yet.
   WetForces Evaluate(const HullMotion& motion, const WaterPatch& water, double density_kg_per_m3,
                      const DragCoefficients& drag, WetScratch& scratch) const;

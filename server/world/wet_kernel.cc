@@ -23,7 +23,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using D = hn::CappedTag<double, kWetBlock>;
 using V = hn::Vec<D>;
-using DF = hn::CappedTag<float, 8>;
+using DF = hn::CappedTag<float, 16>;
 constexpr int kRecordMax = 4 * kWaterBandsMax;
 
 struct Vec3v {
@@ -83,16 +83,21 @@ struct Cell {
   float wu, wv;
 };
 
-// Everything of one vertex but the body's own velocity; `above_m` is its height over the level.
-HWY_INLINE void SampleOne(const WaterSampler& sampler, const Cell& cell, double above_m,
-                          double* depth_m, double* head_m, Vec3d* velocity) {
-  const WaterPatch& patch = *sampler.patch;
+// What is known of the vertices of a block on the way. Each stage runs over all of them before the
+// next begins, since each is a chain of additions that would wait for itself.
+struct alignas(64) Samples {
+  float bands[kWetBlock][kRecordMax + 16];  // the patch's record here
+  float decay[kWetBlock][32], vertical[kWetBlock][32];
+  float height[kWetBlock];
+  bool far_above[kWetBlock];
+};
+
+HWY_INLINE void ReadRecord(const WaterPatch& patch, const Cell& cell, Samples& s, std::size_t v) {
   const DF d;
-  const hn::CappedTag<float, 4> d4;
   const int record = 4 * patch.bands;
   const float* low = patch.samples.data() + cell.offset;
   const float* high = low + record * patch.columns;
-  HWY_ALIGN float bands[kRecordMax + 8];
+  float* bands = s.bands[v];
   const auto wu = hn::Set(d, cell.wu), wv = hn::Set(d, cell.wv);
   for (int n = 0; n < record; n += static_cast<int>(hn::Lanes(d))) {
     const auto c00 = hn::LoadU(d, low + n), c10 = hn::LoadU(d, low + n + record);
@@ -101,31 +106,66 @@ HWY_INLINE void SampleOne(const WaterSampler& sampler, const Cell& cell, double 
     const auto b = hn::Add(c01, hn::Mul(wu, hn::Sub(c11, c01)));
     hn::Store(hn::Add(a, hn::Mul(wv, hn::Sub(b, a))), d, bands + n);
   }
+}
+
+HWY_INLINE void SumHeight(const WaterPatch& patch, Samples& s, std::size_t v) {
   float height = 0.0f;
-  for (int b = 0; b < patch.bands; ++b) height += bands[4 * b];
-  const double depth = double{height} - above_m;
-  HWY_ALIGN float decay[kWaterBandsMax + 8];
+  for (int b = 0; b < patch.bands; ++b) height += s.bands[v][4 * b];
+  s.height[v] = height;
+}
+
+HWY_INLINE void Decay(const WaterSampler& sampler, double depth, Samples& s, std::size_t v) {
+  const DF d;
   const auto below = hn::Set(d, static_cast<float>(std::max(0.0, depth)));
-  for (int b = 0; b < patch.bands; b += static_cast<int>(hn::Lanes(d))) {
-    hn::Store(ExpMinus(hn::Mul(hn::LoadU(d, sampler.wavenumber + b), below)), d, decay + b);
+  for (int b = 0; b < sampler.patch->bands; b += static_cast<int>(hn::Lanes(d))) {
+    hn::Store(ExpMinus(hn::Mul(hn::LoadU(d, sampler.wavenumber + b), below)), d, s.decay[v] + b);
   }
-  HWY_ALIGN float vertical[kWaterBandsMax + 8];
-  if (!sampler.deep) FeelTheBottom(sampler, decay, vertical);
-  HWY_ALIGN float sum[4];
+  if (!sampler.deep) FeelTheBottom(sampler, s.decay[v], s.vertical[v]);
+}
+
+// Height felt, and velocity.
+HWY_INLINE void SumBands(const WaterSampler& sampler, const Samples& s, std::size_t v, float* sum) {
+  const hn::CappedTag<float, 4> d4;
+  const int count = sampler.patch->bands;
   for (int c = 0; c < 4; c += static_cast<int>(hn::Lanes(d4))) {
     auto total = hn::Zero(d4);
-    for (int b = 0; b < patch.bands; ++b) {
-      total = hn::Add(total, hn::Mul(hn::Load(d4, bands + 4 * b + c), hn::Set(d4, decay[b])));
+    for (int b = 0; b < count; ++b) {
+      const auto share = hn::Load(d4, s.bands[v] + 4 * b + c);
+      total = hn::Add(total, hn::Mul(share, hn::Set(d4, s.decay[v][b])));
     }
     hn::Store(total, d4, sum + c);
   }
   if (!sampler.deep) {
     sum[3] = 0.0f;
-    for (int b = 0; b < patch.bands; ++b) sum[3] += bands[4 * b + 3] * vertical[b];
+    for (int b = 0; b < count; ++b) sum[3] += s.bands[v][4 * b + 3] * s.vertical[v][b];
   }
-  *depth_m = depth;
-  *head_m = std::max(0.0, depth - (double{height} - double{sum[0]}));
-  *velocity = patch.current_m_per_s + Vec3d{sum[1], sum[2], sum[3]};
+}
+
+// Depth, head and the water's velocity of a block, but for vertices that are far above the water.
+HWY_INLINE void SampleBlock(const WaterSampler& sampler, const Cell* cells, const double* height_m,
+                            std::size_t first, Samples& s, WetVertices& out,
+                            double (*water)[kWetBlock]) {
+  const WaterPatch& patch = *sampler.patch;
+  const auto each = [&](auto stage) HWY_ATTR {
+    for (std::size_t n = 0; n < kWetBlock; ++n) {
+      if (!s.far_above[n]) stage(n);
+    }
+  };
+  each([&](std::size_t n) HWY_ATTR { ReadRecord(patch, cells[n], s, n); });
+  each([&](std::size_t n) HWY_ATTR {
+    SumHeight(patch, s, n);
+    out.depth[first + n] = double{s.height[n]} - (height_m[n] - patch.level_m);
+  });
+  each([&](std::size_t n) HWY_ATTR { Decay(sampler, out.depth[first + n], s, n); });
+  each([&](std::size_t n) HWY_ATTR {
+    HWY_ALIGN float sum[4];
+    SumBands(sampler, s, n, sum);
+    const double lost = double{s.height[n]} - double{sum[0]};
+    out.head[first + n] = std::max(0.0, out.depth[first + n] - lost);
+    water[0][n] = patch.current_m_per_s.x + double{sum[1]};
+    water[1][n] = patch.current_m_per_s.y + double{sum[2]};
+    water[2][n] = patch.current_m_per_s.z + double{sum[3]};
+  });
 }
 
 // World places of one block, and their cells in the patch.
@@ -164,27 +204,22 @@ void SampleVerticesOf(const WetMesh& mesh, const WetMotion& motion, const WaterS
   const D d;
   const Vec3v velocity = SetAll(motion.velocity_m_per_s), spin = SetAll(motion.spin_rad_per_s);
   const auto& m = motion.turn.m;
+  const WaterPatch& patch = *sampler.patch;
   HWY_ALIGN double height[kWetBlock], water[3][kWetBlock];
+  Samples samples;
   for (std::size_t first = 0; first < mesh.vertices; first += kWetBlock) {
     Cell cells[kWetBlock];
     PlaceBlock(mesh, motion, sampler, first, cells, height);
     for (std::size_t n = 0; n < kWetBlock; ++n) {
       const std::size_t at = first + n;
-      if (height[n] > motion.dry_above_m) {
-        out.depth[at] = -1.0;
-        out.head[at] = water[0][n] = water[1][n] = water[2][n] = 0.0;
-        continue;
-      }
-      Vec3d flow = sampler.patch->current_m_per_s;
-      if (sampler.patch->bands == 0) {
-        out.depth[at] = sampler.patch->level_m - height[n];
-        out.head[at] = std::max(0.0, out.depth[at]);
-      } else {
-        SampleOne(sampler, cells[n], height[n] - sampler.patch->level_m, &out.depth[at],
-                  &out.head[at], &flow);
-      }
-      water[0][n] = flow.x, water[1][n] = flow.y, water[2][n] = flow.z;
+      samples.far_above[n] = height[n] > motion.dry_above_m;
+      out.depth[at] = samples.far_above[n] ? -1.0 : patch.level_m - height[n];
+      out.head[at] = std::max(0.0, out.depth[at]);
+      water[0][n] = patch.current_m_per_s.x;
+      water[1][n] = patch.current_m_per_s.y;
+      water[2][n] = patch.current_m_per_s.z;
     }
+    if (patch.bands > 0) SampleBlock(sampler, cells, height, first, samples, out, water);
     for (std::size_t n = 0; n < kWetBlock; n += hn::Lanes(d)) {
       const std::size_t at = first + n;
       const Vec3v place(hn::Load(d, mesh.x.get() + at), hn::Load(d, mesh.y.get() + at),
@@ -229,7 +264,9 @@ HWY_INLINE void AddTriangles(const WetMesh& mesh, const WetVertices& w,
   V head = hn::Zero(d), depth = hn::Zero(d), squares = hn::Zero(d);
   Vec3v sum = SetAll({}), by_head = SetAll({}), by_depth = SetAll({}), relative = SetAll({});
   for (int k = 0; k < 3; ++k) {
-    const Vec3v place(At(mesh.x, index[k]), At(mesh.y, index[k]), At(mesh.z, index[k]));
+    const Vec3v place(hn::Load(d, mesh.corner_x[k].get() + at),
+                      hn::Load(d, mesh.corner_y[k].get() + at),
+                      hn::Load(d, mesh.corner_z[k].get() + at));
     const V p = At(w.head, index[k]);
     head = hn::Add(head, p);
     depth = hn::Add(depth, depths[k]);

@@ -20,6 +20,8 @@ struct WetMesh {
   std::size_t vertices = 0, triangles = 0;  ///< padded
   sea::AlignedArray<double> x, y, z;
   std::array<sea::AlignedArray<std::int64_t>, 3> corner;
+  /// Their places once more, in the order of the triangles: loads are cheaper than gathers.
+  std::array<sea::AlignedArray<double>, 3> corner_x, corner_y, corner_z;
   sea::AlignedArray<double> normal_x, normal_y, normal_z, area;
 };
 
