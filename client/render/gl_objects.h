@@ -56,6 +56,14 @@ inline void SetSampling(GLenum target, GLint minify, GLint magnify, GLint wrap) 
   glTexParameteri(target, GL_TEXTURE_WRAP_T, wrap);
 }
 
+/// Pixels from left to right and from bottom to top, the last ones not included.
+struct PixelBox {
+  int left = 0, bottom = 0, right = 0, top = 0;
+
+  bool empty() const { return left >= right || bottom >= top; }
+  void Scissor() const { glScissor(left, bottom, right - left, top - bottom); }
+};
+
 /// A linear-filtered 2-D colour target: texture and framebuffer of one size.
 struct ColorTarget {
   Texture texture;

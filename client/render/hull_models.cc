@@ -19,16 +19,17 @@ constexpr Paint kRubber{{0.025f, 0.025f, 0.028f}, 0.2f, 0.0f};
 constexpr Paint kWindow{{0.012f, 0.016f, 0.02f}, 0.97f, 0.0f};
 constexpr Paint kMotor{{0.035f, 0.037f, 0.042f}, 0.6f, 0.0f};
 constexpr Paint kSteel{{0.35f, 0.36f, 0.37f}, 0.5f, 0.0f};
-constexpr Paint kWood{{0.27f, 0.16f, 0.075f}, 0.1f, 0.0f};
-constexpr Paint kWoodPale{{0.36f, 0.23f, 0.12f}, 0.1f, 0.0f};
+constexpr Paint kWood{{0.22f, 0.135f, 0.07f}, 0.1f, 0.0f};
+constexpr Paint kWoodPale{{0.30f, 0.20f, 0.115f}, 0.1f, 0.0f};
 constexpr Paint kWoodDark{{0.15f, 0.085f, 0.045f}, 0.08f, 0.0f};
+constexpr Paint kGap{{0.02f, 0.013f, 0.009f}, 0.0f, 0.0f};
 constexpr Paint kRope{{0.42f, 0.36f, 0.24f}, 0.02f, 0.0f};
 
 SharedHullMesh Share(HullMesh mesh) { return std::make_shared<const HullMesh>(std::move(mesh)); }
 
 // One cross-section of the boat, starboard, from the keel to the deck's edge.
 struct Section {
-  Vec3d keel, chine, waterline, sheer, deck;
+  Vec3d keel, paint, chine, waterline, sheer, deck;
 };
 
 // The lines of a hard-chine boat: the bow begins amidships, rises and rakes.
@@ -50,7 +51,13 @@ Section SectionAt(double along, double length, double beam, double depth) {
                  -(chine_half + up * (half - chine_half)), z};
   };
   const Vec3d keel{(along - 0.5) * length - rake * (1.0 - keel_z / depth), 0.0, keel_z};
-  return {keel, side(0.0), side(0.18), side(0.86), side(1.0)};
+  // The bottom's paint ends at one height, on the bottom itself where the bow rises.
+  const double paint_z = 0.56 * depth, bottom = chine_z - keel_z;
+  const double up = std::clamp((paint_z - chine_z) / (depth - chine_z), 0.0, 0.8);
+  const double along_bottom =
+      bottom > 0.0 ? std::clamp((paint_z - keel_z) / bottom, 0.0, 1.0) : 0.0;
+  const Vec3d chine = side(0.0);
+  return {keel, keel + along_bottom * (chine - keel), chine, side(up), side(0.86), side(1.0)};
 }
 
 Vec3d Mirror(Vec3d p) { return {p.x, -p.y, p.z}; }
@@ -76,7 +83,8 @@ void PaintShell(HullPainter& painter, double length, double beam, double depth) 
   for (int n = 0; n + 1 < kStations; ++n) {
     const Section a = SectionAt(static_cast<double>(n) / (kStations - 1), length, beam, depth);
     const Section b = SectionAt(static_cast<double>(n + 1) / (kStations - 1), length, beam, depth);
-    Strip(painter, a.keel, b.keel, b.chine, a.chine, kBottom);
+    Strip(painter, a.keel, b.keel, b.paint, a.paint, kBottom);
+    Strip(painter, a.paint, b.paint, b.chine, a.chine, kTopside);
     Strip(painter, a.chine, b.chine, b.waterline, a.waterline, kBottom);
     Strip(painter, a.waterline, b.waterline, b.sheer, a.sheer, kTopside);
     Strip(painter, a.sheer, b.sheer, b.deck, a.deck, kRubber);
@@ -152,11 +160,13 @@ void PaintCrateFace(HullPainter& painter, Vec3d centre, Vec3d u, Vec3d v, Vec3d 
     for (int n = 0; n < 4; ++n)
       painter.Quad(foot[n], foot[(n + 1) % 4], top[(n + 1) % 4], top[n], kWoodDark);
   };
-  constexpr int kPlanks = 4;
+  constexpr int kPlanks = 5;
   for (int n = 0; n < kPlanks; ++n) {
-    const double low = -1.0 + 2.0 * n / kPlanks, high = low + 2.0 / kPlanks;
+    const double low = -1.0 + 2.0 * n / kPlanks, high = low + 2.0 / kPlanks, gap = 0.025;
     const auto at = [&](double a, double b) { return centre + a * u + b * v; };
-    painter.Quad(at(-1, low), at(1, low), at(1, high), at(-1, high), n % 2 ? kWood : kWoodDark);
+    painter.Quad(at(-1, low), at(1, low), at(1, low + gap), at(-1, low + gap), kGap);
+    painter.Quad(at(-1, low + gap), at(1, low + gap), at(1, high), at(-1, high),
+                 n % 2 == 0 ? kWood : kWoodDark);
   }
   board({-1, -1}, {1, -1 + width}, kWoodPale);
   board({-1, 1 - width}, {1, 1}, kWoodPale);

@@ -174,6 +174,11 @@ void Renderer::Draw(const RenderFrame& frame, int width, int height, unsigned fr
   const int samples = frame.quality.samples == 0 ? r.samples_default : frame.quality.samples;
   r.scene.Resize(width, height, GL_RGBA16F);
   r.Pass("small sky", [&] { r.sky.DrawSmall(r.empty, block, width, height); });
+  const bool hulls = !frame.hulls.empty() && r.hulls.Prepare(frame, block, width, height);
+  HullMirror mirror;
+  if (hulls) {
+    r.Pass("mirror", [&] { mirror = r.hulls.DrawMirror(width, height, r.sea, r.patches, r.sky); });
+  }
   r.Pass("geometry", [&] { r.grid.Draw(grid, r.sea, r.patches, width, height, samples); });
   r.Pass("classify", [&] { r.classify.Draw(r.empty, r.scene, r.grid); });
   r.Pass("sky", [&] { r.sky.Place(r.empty, block, r.scene); });
@@ -184,14 +189,12 @@ void Renderer::Draw(const RenderFrame& frame, int width, int height, unsigned fr
     variant.regular_waves = !frame.regular_waves.empty();
     variant.cascades = static_cast<int>(frame.cascades.size());
     variant.patches = static_cast<int>(block.counts.w);
-    r.surface.Draw(r.empty, r.scene, r.grid, r.sea, r.patches, r.ripples, r.sky, variant);
+    r.surface.Draw(r.empty, r.scene, r.grid, r.sea, r.patches, r.ripples, r.sky, mirror, variant);
   });
   if (samples == 1) {
     r.Pass("steps", [&] { r.smooth_steps.Draw(r.empty, r.scene, r.grid, r.classify); });
   }
-  if (!frame.hulls.empty() && r.hulls.Prepare(frame, block, width, height)) {
-    r.Pass("hulls", [&] { r.hulls.Draw(r.empty, r.scene, r.grid, r.sea, r.patches, r.sky); });
-  }
+  if (hulls) r.Pass("hulls", [&] { r.hulls.Draw(r.empty, r.scene, r.grid, r.sky); });
   r.Pass("tone map", [&] { r.tone.Draw(r.empty, r.scene, framebuffer, frame.quality.bloom); });
 }
 

@@ -20,8 +20,10 @@
 #include "client/render/renderer.h"
 #include "common/base/clock.h"
 #include "tests/render/test_sea.h"
+#include "tests/render/test_wake.h"
 
 ABSL_FLAG(int, frames, 12, "Pictures per size; the first is left out");
+ABSL_FLAG(bool, harbour, false, "With two wakes, new in each picture, and eight bodies");
 ABSL_FLAG(int, samples, 0, "Samples of the geometry: 1, 4 or 0, as the driver can afford");
 
 namespace onesea::render {
@@ -42,6 +44,7 @@ void Measure(Renderer& renderer, RenderFrame& frame, TestSea& sea, int width, in
   std::vector<std::string> names;
   for (int n = 0; n <= frames; ++n) {
     sea.FillFrame(5.0 + n / 30.0, frame);
+    for (WaterPatch& patch : frame.patches) patch.version = static_cast<std::uint64_t>(n);
     renderer.MeasurePasses(true);
     renderer.Draw(frame, width, height, target.framebuffer.id());
     const std::vector<PassTime> passes = renderer.pass_times();
@@ -91,6 +94,11 @@ int Main(int frames) {
   frame.quality.samples = absl::GetFlag(FLAGS_samples);
   frame.camera.position_m = {0.0, 0.0, 4.0};
   frame.camera.pitch_rad = -0.05;
+  const std::vector<TestWake> wakes = HarbourWakes();
+  if (absl::GetFlag(FLAGS_harbour)) {
+    sea.FillFrame(5.0, frame);
+    FillHarbour(sea, wakes, frame);
+  }
   for (const auto& [width, height] : {std::pair{640, 360}, std::pair{1280, 720}}) {
     Measure(**renderer, frame, sea, width, height, frames);
   }

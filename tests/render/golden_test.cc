@@ -1,4 +1,4 @@
-// Two pictures against ones that a person has looked at. To accept new ones after a change that was
+// Pictures against ones that a person has looked at. To accept new ones after a change that was
 // meant: ONESEA_ACCEPT_PICTURES=1 golden_picture_test, look at tests/render/golden/, and commit.
 #include <cmath>
 #include <cstdlib>
@@ -6,6 +6,7 @@
 #include "client/app/png_writer.h"
 #include "tests/render/image_diff.h"
 #include "tests/render/test_sea.h"
+#include "tests/render/test_wake.h"
 
 namespace onesea::render {
 namespace {
@@ -50,6 +51,19 @@ TEST_F(GoldenTest, StormAtSunsetFromTheMast) {
   frame.sun = {1.1, 0.10};
   frame.weather = {17.0, 0.4, 25'000.0, 0.5};
   Check("sunset", frame);
+}
+
+TEST_F(GoldenTest, BoatsAndWakesInTheAfternoon) {
+  TestSea sea(0.5, 3.6, 2.6, 128);
+  const std::vector<TestWake> wakes = HarbourWakes();
+  RenderFrame frame;
+  sea.FillFrame(5.0, frame);
+  FillHarbour(sea, wakes, frame);
+  frame.camera = {{0, 0, 3.2}, 0.16, -0.08, 0.0, 0.8};
+  frame.sun = {2.0, 0.75};
+  frame.weather = {5.0, 2.6, 30'000.0, 0.25};
+  frame.water = WaterType::kII;
+  Check("harbour", frame);
 }
 
 // The measure itself must be able to fail: a brighter, a shifted and a smoothed sea are not alike.

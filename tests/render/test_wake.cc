@@ -81,8 +81,8 @@ double TestWake::HeightAt(Vec2d place) const {
 
 std::vector<TestWake> HarbourWakes() {
   std::vector<TestWake> wakes;
-  wakes.emplace_back(Vec2d{18, -2}, 0.5, 5.0, 1.6, 0.22);
-  wakes.emplace_back(Vec2d{42, 14}, 2.3, 6.0, 1.8, 0.24);
+  wakes.emplace_back(Vec2d{18, -2}, 0.5, 4.2, 0.9, 0.30);
+  wakes.emplace_back(Vec2d{42, 14}, 2.3, 5.0, 1.1, 0.32);
   return wakes;
 }
 
@@ -112,7 +112,7 @@ void FillHarbour(TestSea& sea, const std::vector<TestWake>& wakes, RenderFrame& 
   };
   frame.hulls.clear();
   const SharedHullMesh boat = BoatModel(6.0, 2.3, 1.0), launch = BoatModel(8.5, 2.9, 1.25);
-  afloat(boat, {18, -2}, 0.5, 2.0, 0.42, 0.05, {0.55f, 0.05f, 0.04f});
+  afloat(boat, {18, -2}, 0.5, 2.0, 0.42, 0.05, {0.42f, 0.045f, 0.035f});
   afloat(launch, {42, 14}, 2.3, 2.8, 0.5, 0.05, {0.03f, 0.09f, 0.26f});
   afloat(boat, {24, 9}, -0.9, 2.0, 0.42, 0.0, {0.75f, 0.75f, 0.72f});
   afloat(BuoyModel(), {13, 5.5}, 0.3, 0.5, -0.1, 0.0, {0.6f, 0.04f, 0.03f});

@@ -12,6 +12,7 @@ namespace onesea::render {
 namespace {
 
 constexpr int kSamples = 4;
+constexpr int kHullsMax = 1024;  // in view
 
 glm::mat4 Placement(const HullInstance& hull, const Vec3d& eye) {
   const auto [w, x, y, z] = hull.rotation_wxyz;
@@ -29,20 +30,65 @@ void SetAttribute(GLuint location, GLint size, std::size_t offset) {
                         reinterpret_cast<const void*>(offset));
 }
 
+PixelBox Union(const PixelBox& a, const PixelBox& b) {
+  return {std::min(a.left, b.left), std::min(a.bottom, b.bottom), std::max(a.right, b.right),
+          std::max(a.top, b.top)};
+}
+
+// Pixels that a sphere may cover: all of them from within, none if it is too small to be seen.
+PixelBox PictureOf(const glm::vec4& centre, float radius_m, const FrameBlock& block, int width,
+                   int height) {
+  const glm::vec4 clip = block.clip_from_world * centre;
+  if (!(clip.w > -radius_m)) return {};
+  if (clip.w < 1.5f * radius_m + 0.3f) return {0, 0, width, height};
+  const float radius = radius_m / (block.ray_forward.w * clip.w);
+  if (radius < 0.3f) return {};
+  const float x = (0.5f + 0.5f * clip.x / clip.w) * static_cast<float>(width);
+  const float y = (0.5f + 0.5f * clip.y / clip.w) * static_cast<float>(height);
+  const float reach = 1.3f * radius + 2.0f;  // a sphere beside the view's middle looks longer
+  const auto pixel = [](float at, int most) {
+    return static_cast<int>(std::clamp(at, 0.0f, static_cast<float>(most)));
+  };
+  return {pixel(x - reach, width), pixel(y - reach, height), pixel(x + reach, width),
+          pixel(y + reach, height)};
+}
+
 }  // namespace
 
 absl::StatusOr<HullPass> HullPass::Create() {
-  std::array<ShaderProgram, 2> programs;
+  constexpr const char* kKinds[][2] = {
+      {"SAMPLES 1", "MIRROR 0"}, {"SAMPLES 4", "MIRROR 0"}, {"SAMPLES 1", "MIRROR 1"}};
+  std::array<ShaderProgram, 5> programs;
   for (std::size_t n = 0; n < programs.size(); ++n) {
-    auto program = ShaderProgram::Build({"frame.glsl", "hulls.vert.glsl"},
-                                        {"frame.glsl", "sky.glsl", "hulls.frag.glsl"},
-                                        {n == 0 ? "SAMPLES 1" : "SAMPLES 4", "kNearest 0.2"});
+    auto program = n < 3 ? ShaderProgram::Build({"frame.glsl", "hulls.vert.glsl"},
+                                                {"frame.glsl", "sky.glsl", "hulls.frag.glsl"},
+                                                {kKinds[n][0], kKinds[n][1], "kNearest 0.2"})
+                   : n == 3
+                       ? ShaderProgram::Build({"frame.glsl", "hulls_water.vert.glsl"},
+                                              {"hulls_water.frag.glsl"}, {"kHulls 1024"})
+                       : ShaderProgram::Build({"fullscreen.vert.glsl"}, {"hulls_place.frag.glsl"});
     if (!program.ok()) return program.status();
     programs[n] = std::move(*program);
   }
-  auto place = ShaderProgram::Build({"fullscreen.vert.glsl"}, {"hulls_place.frag.glsl"});
-  if (!place.ok()) return place.status();
-  return HullPass(std::move(programs), std::move(*place));
+  return HullPass(std::move(programs));
+}
+
+HullPass::HullPass(std::array<ShaderProgram, 5> programs)
+    : one_(std::move(programs[0])),
+      four_(std::move(programs[1])),
+      mirror_(std::move(programs[2])),
+      water_(std::move(programs[3])),
+      place_(std::move(programs[4])) {
+  BindTexture(0, GL_TEXTURE_2D, water_map_);
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, kHullsMax, 1, 0, GL_RGBA, GL_FLOAT, nullptr);
+  SetSampling(GL_TEXTURE_2D, GL_NEAREST, GL_NEAREST, GL_CLAMP_TO_EDGE);
+  glBindFramebuffer(GL_FRAMEBUFFER, water_framebuffer_.id());
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, water_map_.id(), 0);
+  ONESEA_CHECK(glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE);
+  glBindVertexArray(water_vertices_.id());
+  glBindBuffer(GL_ARRAY_BUFFER, water_points_.id());
+  glEnableVertexAttribArray(0);
+  glVertexAttribPointer(0, 4, GL_FLOAT, GL_FALSE, 0, nullptr);
 }
 
 const HullPass::Mesh& HullPass::MeshFor(const std::shared_ptr<const HullMesh>& source) {
@@ -76,29 +122,20 @@ void HullPass::Forget() {
 bool HullPass::Prepare(const RenderFrame& frame, const FrameBlock& block, int width, int height) {
   visible_.clear();
   if (meshes_.size() > frame.hulls.size()) Forget();
-  box_ = {width, height, 0, 0};
-  const glm::vec3 forward(block.ray_forward);
+  box_ = mirror_box_ = {width, height, 0, 0};
   for (const HullInstance& hull : frame.hulls) {
     if (hull.mesh == nullptr || hull.mesh->corners.empty()) continue;
+    if (visible_.size() == kHullsMax) break;
     const Mesh& mesh = MeshFor(hull.mesh);
     const glm::mat4 placement = Placement(hull, frame.camera.position_m);
-    const glm::vec4 centre = block.clip_from_world * placement[3];
-    if (!(centre.w > -mesh.radius_m)) continue;
-    // The picture of the bounding sphere, or all of it from within.
-    Box box{0, 0, width, height};
-    if (centre.w > 1.5f * mesh.radius_m + 0.3f) {
-      const float pixels = 1.3f * mesh.radius_m / (block.ray_forward.w * centre.w) + 2.0f;
-      if (pixels < 2.3f) continue;
-      const float x = (0.5f + 0.5f * centre.x / centre.w) * static_cast<float>(width);
-      const float y = (0.5f + 0.5f * centre.y / centre.w) * static_cast<float>(height);
-      box = {static_cast<int>(std::max(x - pixels, 0.0f)),
-             static_cast<int>(std::max(y - pixels, 0.0f)),
-             static_cast<int>(std::min(x + pixels, static_cast<float>(width))),
-             static_cast<int>(std::min(y + pixels, static_cast<float>(height)))};
-      if (box.left >= box.right || box.bottom >= box.top) continue;
-    }
-    box_ = {std::min(box_.left, box.left), std::min(box_.bottom, box.bottom),
-            std::max(box_.right, box.right), std::max(box_.top, box.top)};
+    const glm::vec4 centre = placement[3];
+    const PixelBox box = PictureOf(centre, mesh.radius_m, block, width, height);
+    // Its image stands on its head in the water below, drawn out towards the eye by the waves.
+    const glm::vec4 image(centre.x, centre.y, std::min(centre.z, 0.0f), 1.0f);
+    const PixelBox mirror = PictureOf(image, 2.0f * mesh.radius_m + 1.0f, block, width, height);
+    if (box.empty() && mirror.empty()) continue;
+    if (!box.empty()) box_ = Union(box_, box);
+    if (!mirror.empty()) mirror_box_ = Union(mirror_box_, mirror);
     visible_.push_back({&mesh, placement, hull.colour});
   }
   return !visible_.empty();
@@ -119,49 +156,93 @@ void HullPass::Resize(int width, int height) {
   ONESEA_CHECK(glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE);
 }
 
-void HullPass::Draw(const VertexArray& empty, const ColorTarget& scene,
-                    const SurfaceGridPass& geometry, const SeaTextures& sea,
-                    const PatchTextures& patches, const SkyPass& sky) {
-  Resize(scene.width, scene.height);
-  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
-  glViewport(0, 0, width_, height_);
-  glEnable(GL_SCISSOR_TEST);
-  glScissor(box_.left, box_.bottom, box_.right - box_.left, box_.top - box_.bottom);
+void HullPass::FindWater(const SeaTextures& sea, const PatchTextures& patches) {
+  std::vector<glm::vec4> points;
+  for (const Visible& hull : visible_) {
+    const glm::vec4& place = hull.world_from_body[3];
+    points.emplace_back(place.x, place.y, std::max(0.25f, 0.4f * hull.mesh->radius_m),
+                        static_cast<float>(points.size()));
+  }
+  glBindFramebuffer(GL_FRAMEBUFFER, water_framebuffer_.id());
+  glViewport(0, 0, kHullsMax, 1);
+  water_.Use();
+  BindTexture(0, GL_TEXTURE_2D_ARRAY, sea.displacement());
+  water_.SetSampler("displacement_map", 0);
+  BindTexture(1, GL_TEXTURE_2D_ARRAY, patches.height());
+  water_.SetSampler("patch_height_map", 1);
+  glBindVertexArray(water_vertices_.id());
+  glBindBuffer(GL_ARRAY_BUFFER, water_points_.id());
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(points.size() * sizeof(glm::vec4)),
+               points.data(), GL_STREAM_DRAW);
+  glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(points.size()));
+}
+
+// `program` is in use; texture units from `unit` on are free.
+void HullPass::DrawMeshes(const ShaderProgram& program, const SkyPass& sky, int unit) {
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   glDepthMask(GL_TRUE);
   glClearColor(0, 0, 0, 0);
   glClearDepth(1.0);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-
-  const bool one = geometry.target() == GL_TEXTURE_2D;
-  const ShaderProgram& program = programs_[one ? 0 : 1];
-  program.Use();
-  const struct {
-    const char* name;
-    GLenum target;
-    const Texture& texture;
-  } kInputs[] = {
-      {one ? "depth_map" : "surface_map", geometry.target(),
-       one ? geometry.depth() : geometry.surface()},
-      {"displacement_map", GL_TEXTURE_2D_ARRAY, sea.displacement()},
-      {"patch_height_map", GL_TEXTURE_2D_ARRAY, patches.height()},
-      {"sky_map", GL_TEXTURE_3D, sky.map()},
-      {"haze_map", GL_TEXTURE_2D, sky.haze()},
-  };
-  int unit = 0;
-  for (const auto& input : kInputs) {
-    BindTexture(unit, input.target, input.texture);
-    program.SetSampler(input.name, unit++);
-  }
+  BindTexture(unit, GL_TEXTURE_2D, water_map_);
+  program.SetSampler("water_map", unit);
+  BindTexture(unit + 1, GL_TEXTURE_3D, sky.map());
+  program.SetSampler("sky_map", unit + 1);
+  BindTexture(unit + 2, GL_TEXTURE_2D, sky.haze());
+  program.SetSampler("haze_map", unit + 2);
   const GLint matrix = program.Uniform("world_from_body"), colour = program.Uniform("colour");
-  for (const Visible& hull : visible_) {
+  const GLint index = program.Uniform("hull");
+  for (std::size_t n = 0; n < visible_.size(); ++n) {
+    const Visible& hull = visible_[n];
+    glUniform1i(index, static_cast<GLint>(n));
     glUniformMatrix4fv(matrix, 1, GL_FALSE, glm::value_ptr(hull.world_from_body));
     glUniform3fv(colour, 1, hull.colour.data());
     glBindVertexArray(hull.mesh->vertices.id());
     glDrawArrays(GL_TRIANGLES, 0, hull.mesh->count);
   }
   glDisable(GL_DEPTH_TEST);
+}
+
+HullMirror HullPass::DrawMirror(int width, int height, const SeaTextures& sea,
+                                const PatchTextures& patches, const SkyPass& sky) {
+  FindWater(sea, patches);
+  const int columns = (width + 1) / 2, rows = (height + 1) / 2;
+  if (columns != mirror_picture_.width || rows != mirror_picture_.height) {
+    mirror_picture_.Resize(columns, rows, GL_RGBA16F);
+    glBindRenderbuffer(GL_RENDERBUFFER, mirror_depth_.id());
+    glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT32F, columns, rows);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER,
+                              mirror_depth_.id());
+    BindTexture(0, GL_TEXTURE_2D, mirror_distance_);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_R16F, columns, rows, 0, GL_RED, GL_FLOAT, nullptr);
+    SetSampling(GL_TEXTURE_2D, GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT1, GL_TEXTURE_2D,
+                           mirror_distance_.id(), 0);
+    constexpr GLenum kTargets[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
+    glDrawBuffers(2, kTargets);
+    ONESEA_CHECK(glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE);
+  }
+  mirror_picture_.Bind();
+  mirror_.Use();
+  DrawMeshes(mirror_, sky, 0);
+  return {&mirror_picture_.texture, &mirror_distance_, mirror_box_};
+}
+
+void HullPass::Draw(const VertexArray& empty, const ColorTarget& scene,
+                    const SurfaceGridPass& geometry, const SkyPass& sky) {
+  if (box_.empty()) return;
+  Resize(scene.width, scene.height);
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
+  glViewport(0, 0, width_, height_);
+  glEnable(GL_SCISSOR_TEST);
+  box_.Scissor();
+  const bool one = geometry.target() == GL_TEXTURE_2D;
+  const ShaderProgram& program = one ? one_ : four_;
+  program.Use();
+  BindTexture(0, geometry.target(), one ? geometry.depth() : geometry.surface());
+  program.SetSampler(one ? "depth_map" : "surface_map", 0);
+  DrawMeshes(program, sky, 1);
 
   scene.Bind();
   place_.Use();

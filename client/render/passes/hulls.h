@@ -8,6 +8,7 @@
 #include "client/render/frame_block.h"
 #include "client/render/gl_objects.h"
 #include "client/render/passes/sky.h"
+#include "client/render/passes/surface.h"
 #include "client/render/passes/surface_grid.h"
 #include "client/render/patch_textures.h"
 #include "client/render/render_frame.h"
@@ -26,9 +27,14 @@ class HullPass {
   /// Finds the hulls in view and uploads meshes that are new. False: there is nothing to draw.
   bool Prepare(const RenderFrame& frame, const FrameBlock& block, int width, int height);
 
-  /// After Prepare() of the same picture; the block must be uploaded.
+  /// After Prepare() of the same picture, the block uploaded: the mirror image in half as many
+  /// columns and rows, for the sea's shading. Valid until the next call.
+  HullMirror DrawMirror(int width, int height, const SeaTextures& sea, const PatchTextures& patches,
+                        const SkyPass& sky);
+
+  /// After DrawMirror(): the hulls over the scene.
   void Draw(const VertexArray& empty, const ColorTarget& scene, const SurfaceGridPass& geometry,
-            const SeaTextures& sea, const PatchTextures& patches, const SkyPass& sky);
+            const SkyPass& sky);
 
  private:
   struct Mesh {
@@ -43,23 +49,24 @@ class HullPass {
     glm::mat4 world_from_body;
     std::array<float, 3> colour;
   };
-  struct Box {
-    int left, bottom, right, top;
-  };
-  HullPass(std::array<ShaderProgram, 2> programs, ShaderProgram place)
-      : programs_(std::move(programs)), place_(std::move(place)) {}
+  explicit HullPass(std::array<ShaderProgram, 5> programs);
   const Mesh& MeshFor(const std::shared_ptr<const HullMesh>& source);
   void Forget();
   void Resize(int width, int height);
+  void FindWater(const SeaTextures& sea, const PatchTextures& patches);
+  void DrawMeshes(const ShaderProgram& program, const SkyPass& sky, int unit);
 
-  std::array<ShaderProgram, 2> programs_;  // sea of one sample a pixel, of four
-  ShaderProgram place_;
+  // Sea of one sample a pixel, of four; mirror image; water under hulls; picture over the scene.
+  ShaderProgram one_, four_, mirror_, water_, place_;
   std::map<const HullMesh*, Mesh> meshes_;
   std::vector<Visible> visible_;
-  Box box_{};
-  Texture picture_;
-  Renderbuffer depth_;
-  Framebuffer framebuffer_;
+  PixelBox box_, mirror_box_;
+  Texture picture_, water_map_, mirror_distance_;
+  Renderbuffer depth_, mirror_depth_;
+  Framebuffer framebuffer_, water_framebuffer_;
+  ColorTarget mirror_picture_;
+  VertexArray water_vertices_;
+  Buffer water_points_;
   int width_ = 0, height_ = 0;
 };
 

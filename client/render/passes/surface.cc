@@ -14,11 +14,11 @@ namespace {
 
 absl::StatusOr<ShaderProgram> Build(const SurfaceVariant& variant) {
   const auto define = [](const char* name, int value) { return absl::StrCat(name, " ", value); };
-  const std::array<std::string, 7> definitions = {
+  const std::array<std::string, 8> definitions = {
       define("EDGES", variant.edges),     define("UNDERSIDE", variant.underside),
       define("RIPPLES", variant.ripples), define("REGULARS", variant.regular_waves),
       define("SAMPLES", variant.samples), define("CASCADES", variant.cascades),
-      define("PATCHES", variant.patches)};
+      define("PATCHES", variant.patches), define("HULLS", variant.hulls)};
   return ShaderProgram::Build({"fullscreen.vert.glsl"},
                               {"frame.glsl", "sky.glsl", "optics.glsl", "surface.frag.glsl"},
                               {definitions.begin(), definitions.end()});
@@ -77,15 +77,31 @@ void SurfacePass::SetFoamWindow(const FoamCells& foam) {
   glGenerateMipmap(GL_TEXTURE_2D);
 }
 
+void SurfacePass::DrawVariant(std::span<const Input> inputs, const SurfaceVariant& variant) {
+  const ShaderProgram& program = ProgramFor(variant);
+  program.Use();
+  int unit = 0;
+  for (const Input& input : inputs) {
+    BindTexture(unit, input.target, input.texture);
+    program.SetSampler(input.name, unit++);
+  }
+  if (variant.edges) {
+    glEnable(GL_BLEND);
+    ClassifyPass::ChooseEdges(program);
+  } else {
+    variant.samples == 1 ? ClassifyPass::ChooseSheetsAndSteps(program)
+                         : ClassifyPass::ChooseSheets(program);
+  }
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glDisable(GL_BLEND);
+}
+
 void SurfacePass::Draw(const VertexArray& empty, const ColorTarget& scene,
                        const SurfaceGridPass& geometry, const SeaTextures& sea,
                        const PatchTextures& patches, const RipplePass& ripples, const SkyPass& sky,
-                       SurfaceVariant variant) {
-  const struct {
-    const char* name;
-    GLenum target;
-    const Texture& texture;
-  } kInputs[] = {
+                       const HullMirror& mirror, SurfaceVariant variant) {
+  const bool hulls = mirror.picture != nullptr && !mirror.box.empty();
+  const Input kInputs[] = {
       {"surface_map", geometry.target(), geometry.surface()},
       {"slope_map", GL_TEXTURE_2D_ARRAY, sea.slope()},
       {"ripple_slope_map", GL_TEXTURE_2D, ripples.slope()},
@@ -94,7 +110,16 @@ void SurfacePass::Draw(const VertexArray& empty, const ColorTarget& scene,
       {"foam_window_map", GL_TEXTURE_2D, foam_window_},
       {"sky_map", GL_TEXTURE_3D, sky.map()},
       {"haze_map", GL_TEXTURE_2D, sky.haze()},
+      {"mirror_map", GL_TEXTURE_2D, hulls ? *mirror.picture : foam_},
+      {"mirror_distance_map", GL_TEXTURE_2D, hulls ? *mirror.distance : foam_},
   };
+  // Only water that may mirror a hull pays for it: that box, then what is below, above and beside.
+  const PixelBox& box = mirror.box;
+  const PixelBox kBoxes[] = {box,
+                             {0, 0, scene.width, box.bottom},
+                             {0, box.top, scene.width, scene.height},
+                             {0, box.bottom, box.left, box.top},
+                             {box.right, box.bottom, scene.width, box.top}};
   scene.Bind();
   variant.samples = geometry.target() == GL_TEXTURE_2D ? 1 : 4;
   glBindVertexArray(empty.id());
@@ -102,23 +127,19 @@ void SurfacePass::Draw(const VertexArray& empty, const ColorTarget& scene,
   for (bool edges : {false, true}) {
     if (edges && variant.samples == 1) break;
     variant.edges = edges;
-    const ShaderProgram& program = ProgramFor(variant);
-    program.Use();
-    int unit = 0;
-    for (const auto& input : kInputs) {
-      BindTexture(unit, input.target, input.texture);
-      program.SetSampler(input.name, unit++);
+    if (!hulls) {
+      DrawVariant(kInputs, variant);
+      continue;
     }
-    if (edges) {
-      glEnable(GL_BLEND);
-      ClassifyPass::ChooseEdges(program);
-    } else {
-      variant.samples == 1 ? ClassifyPass::ChooseSheetsAndSteps(program)
-                           : ClassifyPass::ChooseSheets(program);
+    glEnable(GL_SCISSOR_TEST);
+    for (const PixelBox& part : kBoxes) {
+      if (part.empty()) continue;
+      variant.hulls = &part == kBoxes;
+      part.Scissor();
+      DrawVariant(kInputs, variant);
     }
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glDisable(GL_SCISSOR_TEST);
   }
-  glDisable(GL_BLEND);
   ClassifyPass::ChooseAll();
 }
 

@@ -2,6 +2,7 @@
 
 #include <compare>
 #include <map>
+#include <span>
 
 #include "absl/status/statusor.h"
 #include "client/render/gl_objects.h"
@@ -18,12 +19,20 @@ namespace onesea::render {
 struct SurfaceVariant {
   bool edges = false;      ///< pixels of several sheets of water, or of water and sky
   bool underside = false;  ///< the eye may look at the surface from below
+  bool hulls = false;      ///< their mirror image may be seen
   bool ripples = true;
   bool regular_waves = false;
   int samples = 4;
   int cascades = 4;
   int patches = 0;  ///< of the interaction layer, in view
   friend auto operator<=>(const SurfaceVariant&, const SurfaceVariant&) = default;
+};
+
+/// The hulls' mirror image in flat water, and where in the picture it may be seen.
+struct HullMirror {
+  const Texture* picture = nullptr;   ///< premultiplied; null: no hull is in view
+  const Texture* distance = nullptr;  ///< of the water that shows it [m], premultiplied
+  PixelBox box;
 };
 
 /// Shades the sea, once per covered pixel, over the sky.
@@ -36,10 +45,16 @@ class SurfacePass {
   /// variant is compiled on first use.
   void Draw(const VertexArray& empty, const ColorTarget& scene, const SurfaceGridPass& geometry,
             const SeaTextures& sea, const PatchTextures& patches, const RipplePass& ripples,
-            const SkyPass& sky, SurfaceVariant variant);
+            const SkyPass& sky, const HullMirror& mirror, SurfaceVariant variant);
 
  private:
   SurfacePass();
+  struct Input {
+    const char* name;
+    GLenum target;
+    const Texture& texture;
+  };
+  void DrawVariant(std::span<const Input> inputs, const SurfaceVariant& variant);
   const ShaderProgram& ProgramFor(const SurfaceVariant& variant);
 
   std::map<SurfaceVariant, ShaderProgram> programs_;

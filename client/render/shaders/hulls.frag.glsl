@@ -1,4 +1,5 @@
 // Painted hulls in sun and sky light, cut off where the sea stands before them.
+// With MIRROR, what is above the water as the water shows it, upside down.
 #if SAMPLES > 1
 uniform sampler2DMS surface_map;
 #else
@@ -8,8 +9,13 @@ in vec3 offset_eye;
 in vec3 facing;
 in vec3 paint;
 in vec2 gloss_above;
+in vec3 body;
 in float depth;
-out vec4 radiance;
+in float water_z;
+layout(location = 0) out vec4 radiance;
+#if MIRROR
+layout(location = 1) out float mirror_distance;  // to the water that shows this in its mirror [m]
+#endif
 
 // Share of the pixel that stands before the sea: hard at crests, soft along the waterline, where the
 // distance to the sea passes the hull's within a pixel or two.
@@ -33,9 +39,24 @@ float before_sea(float distance) {
 #endif
 }
 
+// Value noise, 0..1.
+float noise(vec3 at) {
+  vec3 cell = floor(at), f = at - cell;
+  f = f * f * (3.0 - 2.0 * f);
+  vec4 h = vec4(0.0, 57.0, 113.0, 170.0) + dot(cell, vec3(1.0, 57.0, 113.0));
+  vec4 low = fract(sin(h) * 43758.5453), high = fract(sin(h + 1.0) * 43758.5453);
+  vec4 x = mix(low, high, f.x);
+  vec2 y = mix(x.xz, x.yw, f.y);
+  return mix(y.x, y.y, f.z);
+}
+
 void main() {
   float distance = length(offset_eye);
+#if MIRROR
+  float share = gloss_above.y > 0.0 ? 1.0 : 0.0;
+#else
   float share = before_sea(distance);
+#endif
   if (share <= 0.0) discard;
   vec3 direction = offset_eye / distance;
   vec3 n = normalize(facing);
@@ -44,8 +65,10 @@ void main() {
 
   // The last hand's breadth above the water is wet, and darker for it.
   float above = gloss_above.y;
-  float wet = 1.0 - smoothstep(0.03, 0.16, above);
-  vec3 albedo = paint * mix(1.0, 0.6, wet);
+  // Nothing afloat is evenly clean: salt, scuffs, and streaks that ran down.
+  float patchy = noise(body * 2.3), fine = noise(body * vec3(19.0, 19.0, 4.0));
+  float wet = 1.0 - smoothstep(0.02, 0.10 + 0.14 * patchy, above);
+  vec3 albedo = paint * (0.80 + 0.22 * patchy + 0.12 * fine) * mix(1.0, 0.55, wet);
   float gloss = mix(gloss_above.x, 0.85, 0.7 * wet);
 
   // Light: the sun, the sky's half above, and from below what the water gives back.
@@ -78,4 +101,8 @@ void main() {
     colour = through_air(colour, direction, distance);
   }
   radiance = vec4(colour * share, share);
+#if MIRROR
+  float height = max(eye.z - water_z, 0.1);
+  mirror_distance = distance * height / (height + above);
+#endif
 }

@@ -8,6 +8,10 @@ uniform sampler2DArray patch_slope_map;
 uniform sampler2D foam_window_map;
 uniform sampler2D foam_map;
 uniform sampler2D cloud_map;
+#if HULLS
+uniform sampler2D mirror_map;  // hulls upside down, as flat water would show them; premultiplied
+uniform sampler2D mirror_distance_map;  // of that water, premultiplied
+#endif
 #if SAMPLES > 1
 uniform sampler2DMS surface_map;
 #else
@@ -160,6 +164,19 @@ Foam foam_at(vec2 xy, Waves w, float fold, float footprint_log2) {
   return Foam(mask, clamp(cover * 0.8, 0.0, 1.0), mix(1.0, 0.72 + 0.5 * fine, froth));
 }
 
+#if HULLS
+// What stands in the water's mirror for a facet of the given slope, `reach` metres from it. Waves
+// before or behind the water under the hull don't show it.
+vec4 mirrored(vec3 from, vec3 direction, float distance, vec2 slope, float reach) {
+  vec3 r = reflect(direction, normalize(vec3(-slope, 1.0)));
+  vec4 clip = clip_from_world * vec4(from + reach * vec3(r.xy, -abs(r.z)), 1.0);
+  vec2 at = 0.5 + 0.5 * clip.xy / max(clip.w, 0.1);
+  vec4 image = textureLod(mirror_map, at, 0.0);
+  float there = textureLod(mirror_distance_map, at, 0.0).r / max(image.a, 0.01);
+  return image * (1.0 - smoothstep(0.2, 0.4, abs(there / distance - 1.0)));
+}
+#endif
+
 vec3 shade_above(vec2 xy, vec2 place, float distance, float stretch, vec3 direction) {
   vec3 v = -direction;
   Waves w = gather(xy, place, distance, stretch);
@@ -175,6 +192,17 @@ vec3 shade_above(vec2 xy, vec2 place, float distance, float stretch, vec3 direct
   float open = smoothstep(-0.25, 0.12, r.z);
   r.z = abs(r.z) + 0.01;
   vec3 reflected = sky_at(normalize(r), 0.7 * f.deviation) * mix(0.45, 1.0, open);
+
+#if HULLS
+  // Three facets of the many in a pixel.
+  vec3 from = eye.xyz + direction * distance;
+  float reach = clamp(0.05 * distance, 0.5, 3.0);
+  vec2 tilt = normalize(direction.xy + 1e-5) * (0.9 * f.deviation);
+  vec4 image = (mirrored(from, direction, distance, f.slope, reach) +
+                mirrored(from, direction, distance, f.slope + tilt, reach) +
+                mirrored(from, direction, distance, f.slope - tilt, reach)) * (1.0 / 3.0);
+  reflected = reflected * (1.0 - image.a) + image.rgb;
+#endif
 
   // Light out of the water; crests that the sun shines through.
   vec3 body = water_leaving.rgb;
