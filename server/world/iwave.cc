@@ -162,19 +162,11 @@ class FacesIwave final : public PotentialSolver {
 
 absl::StatusOr<std::unique_ptr<WaveSolver>> MakeIwave(const SolverSpec& spec) {
   ONESEA_RETURN_IF_ERROR(ValidateSolverSpec(spec));
-  double depth_m = spec.depth_m > 0.0 ? spec.depth_m : std::numeric_limits<double>::infinity();
-  if (spec.terrain != nullptr) {
-    depth_m = 0.0;
-    for (int row = 0; row < spec.cells.rows; ++row) {
-      for (int column = 0; column < spec.cells.columns; ++column) {
-        depth_m = std::max(depth_m, -spec.terrain->ElevationAt(spec.cells.PlaceOf(
-                                        spec.cells.west + column, spec.cells.south + row)));
-      }
-    }
-    if (!(depth_m > 0.0)) {
-      return absl::InvalidArgumentError("region.terrain: no water in the region");
-    }
+  double depth_m = GreatestDepth(spec);
+  if (spec.terrain != nullptr && depth_m == 0.0) {
+    return absl::InvalidArgumentError("region.terrain: no water in the region");
   }
+  if (depth_m == 0.0) depth_m = std::numeric_limits<double>::infinity();
   if (depth_m > kIwaveDeepCells * spec.cells.cell_m) {
     depth_m = std::numeric_limits<double>::infinity();
   }

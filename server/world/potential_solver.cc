@@ -35,6 +35,18 @@ sea::FloatArray BorderFactors(int cells, int edge_cells, double cell_m, double s
 
 }  // namespace
 
+double GreatestDepth(const SolverSpec& spec) {
+  if (spec.terrain == nullptr) return spec.depth_m;
+  double greatest = 0.0;
+  for (int row = 0; row < spec.cells.rows; ++row) {
+    for (int column = 0; column < spec.cells.columns; ++column) {
+      greatest = std::max(greatest, -spec.terrain->ElevationAt(spec.cells.PlaceOf(
+                                        spec.cells.west + column, spec.cells.south + row)));
+    }
+  }
+  return greatest;
+}
+
 absl::StatusOr<int> SubstepsFor(const SolverSpec& spec, double omega_max_rad_per_s) {
   const double count = std::ceil(omega_max_rad_per_s * spec.step_s / kOmegaStepMax);
   if (count <= kSubstepsMax) return std::max(1, static_cast<int>(count));

@@ -81,6 +81,9 @@ class PotentialSolver : public WaveSolver {
   std::vector<std::uint8_t> wet_;    // one per cell; empty: no land
 };
 
+/// The depth of the deepest cell [m]; 0 if there is no water, or on a flat bottom without a depth.
+double GreatestDepth(const SolverSpec& spec);
+
 /// The least count of sub-steps for which waves of `omega_max` rad/s are stable with a margin, or
 /// InvalidArgument if it were above kSubstepsMax.
 absl::StatusOr<int> SubstepsFor(const SolverSpec& spec, double omega_max_rad_per_s);

@@ -86,18 +86,6 @@ class WaveEquation final : public PotentialSolver {
   sea::FloatArray east_, north_;  // the same at each face, from kBefore on; null: uniform
 };
 
-double GreatestDepth(const SolverSpec& spec) {
-  if (spec.terrain == nullptr) return spec.depth_m;
-  double greatest = 0.0;
-  for (int row = 0; row < spec.cells.rows; ++row) {
-    for (int column = 0; column < spec.cells.columns; ++column) {
-      greatest = std::max(greatest, -spec.terrain->ElevationAt(spec.cells.PlaceOf(
-                                        spec.cells.west + column, spec.cells.south + row)));
-    }
-  }
-  return greatest;
-}
-
 }  // namespace
 
 absl::StatusOr<std::unique_ptr<WaveSolver>> MakeWaveEquation(const SolverSpec& spec) {

@@ -117,6 +117,29 @@ void Heights(benchmark::State& state) {
 }
 BENCHMARK(Heights)->Unit(benchmark::kMicrosecond);
 
+// The five-point update as it is commonly published, cell by cell.
+#if defined(__GNUC__) && !defined(__clang__)
+__attribute__((optimize("no-tree-vectorize")))
+#endif
+void PublishedWaveEquation(benchmark::State& state) {
+  std::vector<float> height(kSide * kSide), before(height);
+  for (std::size_t n = 0; n < height.size(); ++n) height[n] = 0.001f * static_cast<float>(n % 97);
+  const float courant = 0.2f;
+  for (auto _ : state) {
+    for (int y = 1; y + 1 < kSide; ++y) {
+      for (int x = 1; x + 1 < kSide; ++x) {
+        const std::size_t at = static_cast<std::size_t>(y) * kSide + static_cast<std::size_t>(x);
+        const float sum = height[at - 1] + height[at + 1] + height[at - kSide] + height[at + kSide];
+        before[at] = 0.999f * (courant * sum + (2.0f - 4.0f * courant) * height[at] - before[at]);
+      }
+    }
+    height.swap(before);
+    benchmark::DoNotOptimize(height.data());
+    benchmark::ClobberMemory();
+  }
+}
+BENCHMARK(PublishedWaveEquation)->Unit(benchmark::kMicrosecond);
+
 // The published iWave loop: 169 taps a cell, row by row, with a border that is left out; scalar, as
 // it was written.
 #if defined(__GNUC__) && !defined(__clang__)

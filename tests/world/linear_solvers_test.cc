@@ -4,6 +4,7 @@
 #include <string>
 
 #include "hwy/targets.h"
+#include "tests/sea/allocation_count.h"
 #include "tests/world/grid_waves.h"
 
 namespace onesea::world {
@@ -236,6 +237,17 @@ TEST_P(LinearSolver, HasTheSameBitsOnEverySimdTarget) {
     EXPECT_EQ(solver->State(), first) << hwy::TargetName(target);
   }
   hwy::SetSupportedTargetsForTest(0);
+}
+
+TEST_P(LinearSolver, AStepAllocatesNothing) {
+  const auto solver = Solver(GetParam().spec);
+  const std::vector<float> ones(solver->height_m().size(), 0.5f);
+  std::vector<float> x(ones), y(ones), z(ones);
+  solver->Step({});
+  const std::int64_t before = AllocationCount();
+  solver->Step({.source_m = ones, .pressure_head_m = ones, .solid = ones, .rest_height_m = ones});
+  solver->Velocity(x, y, z);
+  EXPECT_EQ(AllocationCount(), before);
 }
 
 // The border: what comes back of a ring wave, against the same ring in a sea without borders near.
