@@ -42,9 +42,10 @@ WaterSampler::WaterSampler(const WaterPatch& of)
   constexpr double kWavenumberDepthMin = 1e-2;
   for (int b = 0; b < of.bands; ++b) {
     double k = of.wavenumber_rad_per_m[b];
-    if (k * of.depth_m < kWavenumberDepthMin) k = kWavenumberDepthMin / of.depth_m;
+    const bool bottomless = !(of.depth_m < std::numeric_limits<double>::infinity());
+    if (!bottomless && k * of.depth_m < kWavenumberDepthMin) k = kWavenumberDepthMin / of.depth_m;
     wavenumber[b] = static_cast<float>(k);
-    bottom_image[b] = static_cast<float>(real::Exp(-2.0 * k * of.depth_m));
+    bottom_image[b] = bottomless ? 0.0f : static_cast<float>(real::Exp(-2.0 * k * of.depth_m));
     deep = deep && bottom_image[b] < 1e-7f;
   }
 }

@@ -230,6 +230,21 @@ TEST(WaterPatch, SamplesAreTheDefinition) {
   }
 }
 
+// A band that doesn't fade (k = 0), as the interaction layer is given, over any depth of water: the
+// head grows by its whole height.
+TEST(WaterPatch, ABandWithoutDecayLiftsTheWholeColumn) {
+  for (const double depth : {std::numeric_limits<double>::infinity(), 6.0}) {
+    WaterPatch patch;
+    patch.depth_m = depth;
+    patch.Resize(2, 2, 1);
+    patch.samples.assign(patch.samples.size(), 0.25f);
+    const WaterPoint got = SampleWater(WaterSampler(patch), {0.5, 0.5, -3.0});
+    EXPECT_NEAR(got.head_m, 3.25, 1e-4);
+    EXPECT_NEAR(got.velocity_m_per_s.x, 0.25, 1e-4);
+    EXPECT_TRUE(std::isfinite(got.velocity_m_per_s.z));
+  }
+}
+
 // Drag: a towed plate has rho/2 (c_p + c_s) A V²; friction acts along; nothing acts where the water
 // moves with the hull.
 TEST(WetHull, DragIsQuadraticAndRelative) {
