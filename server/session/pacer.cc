@@ -1,5 +1,6 @@
 #include "server/session/pacer.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/base/check.h"
@@ -20,10 +21,12 @@ void Pacer::Anchor(Tick tick, std::int64_t now_ns) {
   measured_ns_ = now_ns;
   actual_speed_ = speed_;
   keeps_up_ = true;
+  debt_max_ns_ = kDebtMaxNs;
 }
 
 void Pacer::SetSpeed(double speed, Tick tick, std::int64_t now_ns) {
   ONESEA_CHECK(speed > 0.0);
+  ForgiveDebt(tick + 1, now_ns);  // by the limit of the old speed
   // A fraction of the current period has passed; what is left of it passes at the new speed.
   const double left_ns = static_cast<double>(DueNs(tick + 1) - now_ns);
   const std::int64_t tick_done_ns =
@@ -32,6 +35,7 @@ void Pacer::SetSpeed(double speed, Tick tick, std::int64_t now_ns) {
   speed_ = speed;
   Anchor(tick, tick_done_ns);
   measured_ns_ = now_ns;
+  debt_max_ns_ = std::max(kDebtMaxNs, now_ns - DueNs(tick + 1));
 }
 
 std::int64_t Pacer::DueNs(Tick tick) const {
@@ -41,8 +45,10 @@ std::int64_t Pacer::DueNs(Tick tick) const {
 
 bool Pacer::ForgiveDebt(Tick next_tick, std::int64_t now_ns) {
   const std::int64_t debt_ns = now_ns - DueNs(next_tick);
-  if (debt_ns <= kDebtMaxNs) return false;
-  anchor_ns_ += debt_ns - kDebtMaxNs;
+  const std::int64_t forgiven_ns = debt_ns - debt_max_ns_;
+  debt_max_ns_ = std::clamp(debt_ns, kDebtMaxNs, debt_max_ns_);
+  if (forgiven_ns <= 0) return false;
+  anchor_ns_ += forgiven_ns;
   return true;
 }
 

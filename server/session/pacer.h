@@ -10,7 +10,9 @@
 /// keep up, neither skipped ticks nor an ever-growing debt that would make it fall behind further
 /// once it can. Idea: tick n is due at an anchor plus a multiple; nothing accumulates. A debt up to
 /// kDebtMaxNs is worked off at full speed; what exceeds it is forgiven by moving the anchor, so
-/// simulated time slows instead, and the caller tells.
+/// simulated time slows instead, and the caller tells. The
+/// ticks that are owed at a change of speed stay owed, however long they last at the new one: sea
+/// time doesn't jump there.
 namespace onesea::server {
 
 class Pacer {
@@ -23,12 +25,13 @@ class Pacer {
   /// measured speed.
   void Anchor(Tick tick, std::int64_t now_ns);
 
-  /// Changes the speed from the last due time on, so that sea time stays continuous.
+  /// Changes the speed at `now_ns`; the sea time of that instant stays, pending debt included.
   void SetSpeed(double speed, Tick tick, std::int64_t now_ns);
 
   std::int64_t DueNs(Tick tick) const;
 
-  /// Forgives debt above kDebtMaxNs for the next tick; true if it did.
+  /// Forgives debt above kDebtMaxNs, or above what is left of the debt at a change of speed, for
+  /// the next tick; true if it did.
   bool ForgiveDebt(Tick next_tick, std::int64_t now_ns);
 
   /// Once a second: measures the speed reached since the last call, if that is a quarter of a
@@ -45,6 +48,7 @@ class Pacer {
   double speed_;
   Tick anchor_tick_ = 0;
   std::int64_t anchor_ns_ = 0;
+  std::int64_t debt_max_ns_ = kDebtMaxNs;
   Tick measured_tick_ = 0;
   std::int64_t measured_ns_ = 0;
   double actual_speed_ = 0.0;

@@ -33,6 +33,20 @@ TEST(Pacer, ChangingTheSpeedKeepsSeaTimeContinuous) {
   EXPECT_EQ(pacer.DueNs(2), 25'000'000);
 }
 
+// Owed are 4 ticks of 0.2 ms, at the new speed 8 s: they stay owed until they are made, and
+// nothing more than they.
+TEST(Pacer, ChangingTheSpeedForgivesNothing) {
+  Pacer pacer(50, 100.0);
+  pacer.Anchor(0, 0);
+  pacer.SetSpeed(0.01, 0, 1'000'000);
+  EXPECT_EQ(pacer.DueNs(5), 1'000'000);
+  EXPECT_FALSE(pacer.ForgiveDebt(1, 1'000'000));
+  EXPECT_FALSE(pacer.ForgiveDebt(5, 1'000'000));
+  EXPECT_EQ(pacer.DueNs(6), 1'000'000 + 2 * kSecond);
+  EXPECT_TRUE(pacer.ForgiveDebt(6, 1'000'000 + 3 * kSecond));  // from then on as ever
+  EXPECT_EQ(pacer.DueNs(6), 1'000'000 + 3 * kSecond - Pacer::kDebtMaxNs);
+}
+
 TEST(Pacer, ForgivesOnlyLargeDebt) {
   Pacer pacer(50, 1.0);
   pacer.Anchor(0, 0);

@@ -150,6 +150,31 @@ TEST_F(Fixture, FollowsTheSpeed) {
   }
 }
 
+// What a viewer that follows this stamp shows at `now_ns`.
+double ShownS(const wire::Stamp& stamp, std::int64_t now_ns) {
+  return static_cast<double>(stamp.tick) / 60.0 +
+         1e-9 * static_cast<double>(now_ns - stamp.server_monotonic_ns) * stamp.speed;
+}
+
+TEST_F(Fixture, AChangeOfSpeedWithOverdueTicksShowsNoJump) {
+  SessionSpec spec = SmallSession();
+  spec.speed = 100.0;
+  Make(spec);
+  Pass(kSecond);
+  clock.Advance(80 * kMs);  // 480 ticks
+  const std::int64_t change_ns = clock.MonotonicNs();
+  const double at_change_s = ShownS(recorder->events.back().stamp, change_ns);
+  EXPECT_GT(at_change_s, static_cast<double>(tick()) / 60.0 + 7.9);
+  ASSERT_TRUE(runner->SetSpeed(0.01, change_ns).ok());
+  const std::size_t first = recorder->events.size() - 1;
+  Pass(20 * kSecond);
+  for (std::size_t n = first; n < recorder->events.size(); ++n) {
+    const double shown_s = ShownS(recorder->events[n].stamp, clock.MonotonicNs());
+    ASSERT_NEAR(shown_s, at_change_s + 0.2, 1e-6) << n;
+  }
+  EXPECT_NEAR(static_cast<double>(tick()), 60.0 * (at_change_s + 0.2), 1.0);
+}
+
 TEST_F(Fixture, HoldsAndResumes) {
   Make(SmallSession());
   Pass(kSecond);
