@@ -15,13 +15,18 @@ inline constexpr double kCascadeLengthMinM = 1.0;
 inline constexpr double kCascadeLengthMaxM = 4096.0;
 inline constexpr int kWaveSystemsMax = 8;
 inline constexpr int kRegularWavesMax = 32;
+// Lattice waves x wave systems of all weather entries: 3 s of one core to build. Default cascades
+// with every entry full need 1.6 million.
+inline constexpr std::int64_t kBuildWavesMax = 2'000'000;
 inline constexpr int kWeatherEntriesMax =
     16;  // entries that still matter; older ones are folded away
 inline constexpr int kSpectrumFrequenciesMax = 128;
 inline constexpr int kSpectrumDirectionsMax = 180;
 inline constexpr int kSeaNameLengthMax = 200;
 inline constexpr double kWindSpeedMaxMPerS = 100.0;
-inline constexpr double kHsMaxM = 40.0;
+inline constexpr double kHsMaxM = 40.0;        // of one wave system
+inline constexpr double kSeaHsMaxM = 400.0;    // of all together; PM at kWindSpeedMax has 214
+inline constexpr double kHeightMaxM = 1000.0;  // a client believes no more; crests reach 2 Hs
 inline constexpr double kPeriodMinS = 0.1;
 inline constexpr double kPeriodMaxS = 60.0;
 inline constexpr double kDepthMinM = 0.1;
@@ -85,6 +90,7 @@ inline constexpr int kTicksPerReadingMax = 3600;
 // Service.
 inline constexpr int kSessionsMax = 64;
 inline constexpr int kSessionNameLengthMax = 64;
+inline constexpr std::size_t kErrorLengthMax = 4096;   // of a server's words that a client shows
 inline constexpr int kQueryPointsMax = 100'000;        // 0.8 MB of request, under gRPC's 4 MB
 inline constexpr double kQueryCoordinateMaxM = 1.0e7;  // a quarter of the way round the globe
 inline constexpr double kQueryTimeMaxS = 3.2e9;        // a century either way of tick 0

@@ -64,11 +64,6 @@ std::vector<double> SmoothedDensity(const std::vector<double>& energy) {
   return density;
 }
 
-double WaveTo(double sine, double cosine) {
-  const double angle = std::atan2(sine, cosine);
-  return angle < 0.0 ? angle + 2.0 * kPi : angle;
-}
-
 // Period of the highest bin, and of the parabola through it and its neighbours.
 void FindPeak(const std::vector<double>& density, SpectrumStatistics& out) {
   const auto peak = std::max_element(density.begin(), density.end());

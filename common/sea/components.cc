@@ -4,7 +4,10 @@
 #include <array>
 #include <cmath>
 
+#include "absl/strings/str_cat.h"
 #include "common/base/check.h"
+#include "common/base/limits.h"
+#include "common/base/range_check.h"
 #include "common/base/real_math.h"
 #include "common/base/rng.h"
 #include "common/sea/cell_integral.h"
@@ -169,6 +172,25 @@ std::vector<RegularComponent> BuildRegular(const Recipe& recipe) {
   return components;
 }
 
+// Variance of the whole surface in weather entry `m`.
+double EntryVariance(const Components& components, std::size_t m) {
+  double sum = 0.0;
+  for (const CascadeComponents& cascade : components.cascades) {
+    for (const float variance : cascade.variance_m2[m]) sum += static_cast<double>(variance);
+  }
+  for (const RegularComponent& wave : components.regular) sum += wave.variance_m2[m];
+  return sum;
+}
+
+absl::Status CheckHeights(const Components& components) {
+  for (std::size_t m = 0; m < components.recipe.timeline.size(); ++m) {
+    const double hs_m = 4.0 * std::sqrt(EntryVariance(components, m));
+    ONESEA_RETURN_IF_ERROR(CheckInRange(
+        absl::StrCat("timeline[", m, "].sea: Hs of all its waves [m]"), hs_m, 0.0, kSeaHsMaxM));
+  }
+  return absl::OkStatus();
+}
+
 }  // namespace
 
 absl::StatusOr<std::shared_ptr<const Components>> BuildComponents(const Recipe& recipe) {
@@ -201,6 +223,7 @@ absl::StatusOr<std::shared_ptr<const Components>> BuildComponents(const Recipe& 
     out->unresolved_mss.push_back(rest.unresolved_mss);
   }
   out->regular = BuildRegular(recipe);
+  ONESEA_RETURN_IF_ERROR(CheckHeights(*out));
   out->hash = HashOf(*out);
   return out;
 }
@@ -209,12 +232,7 @@ double VarianceAt(const Components& components, SimTime time) {
   const std::vector<double> weights = WeatherWeights(components.recipe, time);
   double total = 0.0;
   for (std::size_t m = 0; m < weights.size(); ++m) {
-    double entry = 0.0;
-    for (const CascadeComponents& cascade : components.cascades) {
-      for (const float variance : cascade.variance_m2[m]) entry += static_cast<double>(variance);
-    }
-    for (const RegularComponent& wave : components.regular) entry += wave.variance_m2[m];
-    total += weights[m] * entry;
+    total += weights[m] * EntryVariance(components, m);
   }
   return total;
 }

@@ -55,8 +55,8 @@ struct Components {
   std::vector<double> lost_variance_m2;  ///< (weather entries) ∫S outside all bands
 };
 
-/// Cost: about 20 ms per wave system with the default cascades, one core. Immutable afterwards:
-/// share it.
+/// InvalidArgument as ValidateRecipe(), or for a sea above kSeaHsMaxM. Cost: about 20 ms per wave
+/// system with the default cascades, one core. Immutable afterwards: share it.
 absl::StatusOr<std::shared_ptr<const Components>> BuildComponents(const Recipe& recipe);
 
 /// Variance of the whole surface at `time`: Σ w_m E_m [m²]; Hs = 4 √ of it.

@@ -88,6 +88,30 @@ absl::Status ValidateTimeline(const Recipe& recipe) {
   return absl::OkStatus();
 }
 
+// Cells that meet the band, to a percent: a disc grown by half a cell less one shrunk by it.
+double WaveCountOf(const Cascade& cascade) {
+  const double cells = cascade.length_m / (2.0 * kPi);
+  const double low = cells * cascade.wavenumber_min_rad_per_m;
+  const double high = cells * cascade.wavenumber_max_rad_per_m;
+  return kPi * (high * high - low * low) + 4.0 * (high + low);
+}
+
+// What BuildComponents() will cost.
+absl::Status ValidateBuildCost(const Recipe& recipe) {
+  double waves = 0.0;
+  std::int64_t systems = 0;
+  for (const Cascade& cascade : recipe.cascades) waves += WaveCountOf(cascade);
+  for (const WeatherEntry& entry : recipe.timeline) {
+    systems += static_cast<std::int64_t>(entry.sea.systems.size());
+  }
+  const std::int64_t whole_waves = std::llround(waves);
+  if (whole_waves * systems <= kBuildWavesMax) return absl::OkStatus();
+  return absl::InvalidArgumentError(absl::StrCat(
+      "cascades: about ", whole_waves, " waves x ", systems,
+      " wave systems in the timeline = ", whole_waves * systems, ", the limit is ", kBuildWavesMax,
+      "; use smaller bands, fewer systems, or wait for older weather to end"));
+}
+
 absl::Status ValidateAmplitude(AmplitudeKind kind) {
   if (kind == AmplitudeKind::kFixed || kind == AmplitudeKind::kRayleigh) return absl::OkStatus();
   return absl::InvalidArgumentError(
@@ -138,7 +162,8 @@ absl::Status ValidateRecipe(const Recipe& recipe) {
   ONESEA_RETURN_IF_ERROR(ValidateAmplitude(recipe.amplitude));
   ONESEA_RETURN_IF_ERROR(CheckInRange("choppiness", recipe.choppiness, 0.0, kChoppinessMax));
   ONESEA_RETURN_IF_ERROR(ValidateCascades(recipe.cascades));
-  return ValidateTimeline(recipe);
+  ONESEA_RETURN_IF_ERROR(ValidateTimeline(recipe));
+  return ValidateBuildCost(recipe);
 }
 
 }  // namespace onesea::sea

@@ -19,11 +19,6 @@ struct Band {
   double cosine = 0.0, sine = 0.0;  // ∫ S cos θ dθ, ∫ S sin θ dθ
 };
 
-double WaveTo(double sine, double cosine) {
-  const double angle = std::atan2(sine, cosine);
-  return angle < 0.0 ? std::min(angle + kTurn, std::nextafter(kTurn, 0.0)) : angle;
-}
-
 // The top of the parabola through three points; the middle one where they lie on a line.
 double ParabolaPeakHz(const Band& a, const Band& b, const Band& c) {
   const double slope_ab = (a.density - b.density) / (a.frequency_hz - b.frequency_hz);
@@ -76,6 +71,11 @@ SpectrumStatistics Summarise(const std::vector<Band>& bands, bool has_direction,
 }
 
 }  // namespace
+
+double WaveTo(double sine, double cosine) {
+  const double angle = std::atan2(sine, cosine);
+  return angle < 0.0 ? std::min(angle + kTurn, std::nextafter(kTurn, 0.0)) : angle;
+}
 
 SpectrumStatistics ComputeStatistics(const BuoySpectrum& spectrum) {
   const std::size_t n = spectrum.frequency_hz.size();

@@ -30,4 +30,7 @@ struct SpectrumStatistics {
 SpectrumStatistics ComputeStatistics(const BuoySpectrum& spectrum);
 SpectrumStatistics ComputeStatistics(const GridSpectrum& spectrum);
 
+/// Direction of the vector (cosine, sine), in [0, 2π).
+double WaveTo(double sine, double cosine);
+
 }  // namespace onesea::sea

@@ -16,7 +16,8 @@ struct CascadeFrame {
   double sine = 0.0;
   double length_m = 1.0;
 
-  /// Local coordinates in [0, 1) of the tile; exact to 1e-9 m at 10⁷ m.
+  /// Local coordinates in [0, 1] of the tile (1: just below a whole tile, as rounded), to 1e-8 m at
+  /// 10⁷ m.
   Vec2d TileFraction(Vec2d world) const;
   /// Wave vector of lattice point (i, j) [rad/m], more exact than the float in CascadeComponents.
   Vec2d WaveVector(int i, int j) const;

@@ -50,6 +50,13 @@ TEST(ComponentStatistics, RegularWaveIsItsOwnSpectrum) {
   EXPECT_NEAR(s.spread_rad, 0.0, 1e-6);
 }
 
+// A direction just below east is just below a turn, which rounding must not make of it.
+TEST(ComponentStatistics, DirectionsStayBelowATurn) {
+  EXPECT_LT(WaveTo(-1e-20, 1.0), 2.0 * kPi);
+  EXPECT_EQ(WaveTo(0.0, -1.0), kPi);
+  EXPECT_NEAR(WaveTo(-1.0, 0.0), 1.5 * kPi, 1e-15);
+}
+
 TEST(ComponentStatistics, FlatWaterHasNone) {
   const SpectrumStatistics s = ComputeStatistics(*Build({}), {0});
   EXPECT_EQ(s.hs_m, 0.0);

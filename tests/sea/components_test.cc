@@ -233,6 +233,24 @@ TEST(BuildComponents, RegularWaveHasItsPeriodAndDirection) {
   EXPECT_NEAR(VarianceAt(*components, {0}), 0.125, 1e-12);
 }
 
+// Every number of it is within its own limits; clients would refuse such a session's Hs.
+TEST(BuildComponents, RefusesASeaThatIsTooHighAltogether) {
+  PhillipsSystem gale{.wind_speed_m_per_s = kWindSpeedMaxMPerS};
+  gale.small_wave_cutoff_m = 1.0;
+  Recipe recipe = RecipeOf({gale});
+  EXPECT_TRUE(BuildComponents(recipe).ok());  // Hs 130 m
+  gale.alpha = 1.0;
+  recipe.timeline.push_back({60, 0, {"", {gale}, {}, 0.0, 0.0}});
+  const absl::Status status = BuildComponents(recipe).status();
+  EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
+  for (const char* words : {"timeline[1].sea: Hs", " = 728.", "is outside [0, 400]"}) {
+    EXPECT_NE(status.message().find(words), absl::string_view::npos) << status;
+  }
+  Recipe tank = RecipeOf({});
+  tank.timeline[0].sea.regular_waves.assign(kRegularWavesMax, {kHsMaxM, 8.0, 0.0, 0.0});
+  EXPECT_EQ(BuildComponents(tank).status().code(), absl::StatusCode::kInvalidArgument);
+}
+
 TEST(BuildComponents, RefusesABadRecipe) {
   Recipe recipe = RecipeOf({JonswapSystem{}});
   recipe.depth_m = -1.0;
