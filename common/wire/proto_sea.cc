@@ -109,15 +109,7 @@ void ToProto(const sea::SeaState& sea, v1::SeaState* out) {
 
 void ToProto(const sea::Recipe& recipe, v1::Recipe* out) {
   out->set_sea_model_version(recipe.sea_model_version);
-  out->set_seed(recipe.seed);
-  out->set_tick_rate_hz(recipe.tick_rate_hz);
-  out->set_depth_m(recipe.depth_m);
-  out->set_current_east_m_per_s(recipe.current_m_per_s.x);
-  out->set_current_north_m_per_s(recipe.current_m_per_s.y);
-  out->set_loop_period_s(recipe.loop_period_s);
-  out->set_amplitude(static_cast<v1::AmplitudeKind>(recipe.amplitude));
-  out->set_choppiness(recipe.choppiness);
-  for (const sea::Cascade& cascade : recipe.cascades) ToProto(cascade, out->add_cascades());
+  WriteWaters(recipe, out);
   for (const sea::WeatherEntry& entry : recipe.timeline) {
     auto* p = out->add_timeline();
     p->set_start_tick(entry.start_tick);

@@ -40,16 +40,8 @@ absl::StatusOr<sea::Recipe> FromProto(const v1::Recipe& proto) {
   recipe.sea_model_version = proto.sea_model_version();
   recipe.seed = proto.seed();
   recipe.tick_rate_hz = proto.tick_rate_hz();
-  recipe.depth_m = proto.depth_m();
-  recipe.current_m_per_s = {proto.current_east_m_per_s(), proto.current_north_m_per_s()};
-  recipe.loop_period_s = proto.loop_period_s();
-  ONESEA_ASSIGN_OR_RETURN(recipe.amplitude, FromProto(proto.amplitude()));
   recipe.choppiness = proto.choppiness();
-  ONESEA_RETURN_IF_ERROR(
-      CheckSize("", "cascades", static_cast<std::size_t>(proto.cascades_size()), kCascadesMax));
-  for (const v1::Cascade& cascade : proto.cascades()) {
-    recipe.cascades.push_back(FromProto(cascade));
-  }
+  ONESEA_RETURN_IF_ERROR(ReadWaters(proto, recipe));
   ONESEA_RETURN_IF_ERROR(CheckSize("", "timeline", static_cast<std::size_t>(proto.timeline_size()),
                                    kWeatherEntriesMax));
   for (int n = 0; n < proto.timeline_size(); ++n) {
