@@ -136,7 +136,7 @@ absl::StatusOr<StepAnswer> RemoteServer::Step(const std::string& session,
       impl_->Call(&v1::OneSea::Stub::StepSession, request, &response, options.timeout_ns));
   StepAnswer answer{.tick = response.tick(), .state_hash = response.state_hash(), .query = {}};
   if (options.query.has_value() && response.has_query()) {
-    ONESEA_ASSIGN_OR_RETURN(answer.query, AnswerTo(*options.query, response.query()));
+    answer.query = wire::OrError(AnswerTo(*options.query, response.query()), options.query->id);
   }
   return answer;
 }

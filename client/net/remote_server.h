@@ -38,7 +38,7 @@ struct StepOptions {
 struct StepAnswer {
   Tick tick = 0;  ///< reached
   std::uint64_t state_hash = 0;
-  std::optional<wire::QueryAnswer> query;
+  std::optional<wire::QueryAnswer> query;  ///< with a `status` where only the query failed
 };
 
 struct StateHashes {

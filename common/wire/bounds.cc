@@ -1,5 +1,7 @@
 #include "common/wire/bounds.h"
 
+#include <algorithm>
+
 #include "absl/strings/escaping.h"
 #include "absl/strings/str_cat.h"
 
@@ -64,6 +66,18 @@ absl::Status CheckText(std::string_view prefix, std::string_view field, std::str
     at += bytes;
   }
   return absl::OkStatus();
+}
+
+std::string Printable(std::string_view text, std::size_t max) {
+  std::string out;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t bytes = CharacterBytes(text.substr(at));
+    const std::string_view character = bytes == 0 ? "?" : text.substr(at, bytes);
+    if (out.size() + character.size() > max) break;
+    out += character;
+    at += std::max<std::size_t>(bytes, 1);
+  }
+  return out;
 }
 
 }  // namespace onesea::wire

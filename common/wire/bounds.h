@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <string_view>
 
 #include "absl/status/status.h"
@@ -27,5 +28,9 @@ absl::Status CheckSize(std::string_view prefix, std::string_view field, std::siz
 /// terminal may show.
 absl::Status CheckText(std::string_view prefix, std::string_view field, std::string_view text,
                        std::size_t max);
+
+/// What a terminal may show of a text that nobody checked: at most `max` bytes, cut between two
+/// characters, with a question mark for every byte that CheckText() would refuse.
+std::string Printable(std::string_view text, std::size_t max);
 
 }  // namespace onesea::wire

@@ -38,7 +38,7 @@ absl::StatusOr<ProbeHeights> ReadProbes(const v1::ProbeHeights& proto) {
                                    static_cast<std::size_t>(proto.height_m_size()), kProbesMax));
   for (float height_m : proto.height_m()) {
     ONESEA_RETURN_IF_ERROR(
-        CheckReal("probes.", "height_m", static_cast<double>(height_m), -1e3, 1e3));
+        CheckReal("probes.", "height_m", static_cast<double>(height_m), -kHeightMaxM, kHeightMaxM));
   }
   return ProbeHeights{proto.tick(), {proto.height_m().begin(), proto.height_m().end()}};
 }
@@ -93,7 +93,7 @@ absl::StatusOr<Frame> DecodeFrame(std::string_view bytes) {
   if (proto.has_welcome()) {
     ONESEA_ASSIGN_OR_RETURN(frame.welcome, ReadWelcome(proto.welcome()));
   }
-  if (proto.has_farewell()) frame.farewell = proto.farewell().reason();
+  if (proto.has_farewell()) frame.farewell = Printable(proto.farewell().reason(), kErrorLengthMax);
   if (proto.has_world()) {
     ONESEA_ASSIGN_OR_RETURN(frame.world, FromProto(proto.world()));
   }

@@ -1,5 +1,7 @@
 #include "common/wire/proto_query.h"
 
+#include <utility>
+
 #include "absl/strings/str_cat.h"
 #include "common/base/check.h"
 #include "common/base/limits.h"
@@ -120,8 +122,8 @@ absl::StatusOr<QueryAnswer> FromProto(const v1::QueryPointsResponse& proto) {
   QueryAnswer answer;
   answer.id = proto.id();
   if (proto.error_code() != 0) {
-    answer.status =
-        absl::Status(static_cast<absl::StatusCode>(proto.error_code()), proto.error_message());
+    answer.status = absl::Status(static_cast<absl::StatusCode>(proto.error_code()),
+                                 Printable(proto.error_message(), kErrorLengthMax));
     return answer;
   }
   ONESEA_RETURN_IF_ERROR(CheckAnswerSizes(proto));
@@ -136,6 +138,14 @@ absl::StatusOr<QueryAnswer> FromProto(const v1::QueryPointsResponse& proto) {
   answer.depth_velocity_m_per_s = ToVector(proto.depth_velocity_m_per_s());
   answer.dynamic_pressure_pa = ToVector(proto.dynamic_pressure_pa());
   return answer;
+}
+
+QueryAnswer OrError(absl::StatusOr<QueryAnswer> answer, std::int64_t id) {
+  if (answer.ok()) return *std::move(answer);
+  QueryAnswer error;
+  error.id = id;
+  error.status = answer.status();
+  return error;
 }
 
 absl::Status CheckAnswers(const QueryRequest& request, const QueryAnswer& answer) {

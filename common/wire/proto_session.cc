@@ -55,16 +55,8 @@ absl::StatusOr<sea::Recipe> ReadRecipe(const v1::SessionSpec& proto, const std::
   sea::Recipe recipe;
   if (proto.has_seed()) recipe.seed = proto.seed();
   if (proto.tick_rate_hz() != 0) recipe.tick_rate_hz = proto.tick_rate_hz();
-  recipe.depth_m = proto.depth_m();
-  recipe.current_m_per_s = {proto.current_east_m_per_s(), proto.current_north_m_per_s()};
-  recipe.loop_period_s = proto.loop_period_s();
-  ONESEA_ASSIGN_OR_RETURN(recipe.amplitude, FromProto(proto.amplitude()));
   if (proto.has_choppiness()) recipe.choppiness = proto.choppiness();
-  ONESEA_RETURN_IF_ERROR(
-      CheckSize("", "cascades", static_cast<std::size_t>(proto.cascades_size()), kCascadesMax));
-  for (const v1::Cascade& cascade : proto.cascades()) {
-    recipe.cascades.push_back(FromProto(cascade));
-  }
+  ONESEA_RETURN_IF_ERROR(ReadWaters(proto, recipe));
   if (recipe.cascades.empty()) recipe.cascades = sea::DefaultCascades();
   if (!proto.has_sea()) return absl::InvalidArgumentError("sea: is missing");
   ONESEA_ASSIGN_OR_RETURN(sea::SeaState sea, FromProto(proto.sea(), "sea.", folder));
@@ -88,16 +80,8 @@ void ToProto(const SessionSpec& spec, v1::SessionSpec* out) {
   out->set_name(spec.name);
   const sea::Recipe& recipe = spec.recipe;
   if (!recipe.timeline.empty()) ToProto(recipe.timeline.front().sea, out->mutable_sea());
-  out->set_seed(recipe.seed);
-  out->set_tick_rate_hz(recipe.tick_rate_hz);
+  WriteWaters(recipe, out);
   out->set_stream_rate_hz(spec.stream_rate_hz);
-  out->set_depth_m(recipe.depth_m);
-  out->set_current_east_m_per_s(recipe.current_m_per_s.x);
-  out->set_current_north_m_per_s(recipe.current_m_per_s.y);
-  out->set_loop_period_s(recipe.loop_period_s);
-  out->set_amplitude(static_cast<v1::AmplitudeKind>(recipe.amplitude));
-  out->set_choppiness(recipe.choppiness);
-  for (const sea::Cascade& cascade : recipe.cascades) ToProto(cascade, out->add_cascades());
   if (spec.epoch_utc_ns != 0) SetTimestamp(spec.epoch_utc_ns, out->mutable_epoch_time());
   if (spec.latitude_deg) out->set_latitude_deg(*spec.latitude_deg);
   if (spec.longitude_deg) out->set_longitude_deg(*spec.longitude_deg);
@@ -156,7 +140,7 @@ void ToProto(const SessionInfo& info, v1::SessionInfo* out) {
 
 absl::StatusOr<SessionInfo> FromProto(const v1::SessionInfo& proto) {
   SessionInfo info;
-  info.name = proto.name();
+  info.name = Printable(proto.name(), kSessionNameLengthMax);
   ONESEA_ASSIGN_OR_RETURN(info.pace, FromProto(proto.pace()));
   info.speed = proto.speed();
   info.actual_speed = proto.actual_speed();
@@ -191,9 +175,9 @@ absl::StatusOr<SessionInfo> FromProto(const v1::SessionInfo& proto) {
   }
   info.viewer_count = proto.viewer_count();
   info.hs_m = proto.hs_m();
-  ONESEA_RETURN_IF_ERROR(CheckReal("session.", "hs_m", info.hs_m, 0.0, 1e3));
+  ONESEA_RETURN_IF_ERROR(CheckReal("session.", "hs_m", info.hs_m, 0.0, kHeightMaxM));
   info.component_hash = proto.component_hash();
-  info.sea_name = proto.sea_name();
+  info.sea_name = Printable(proto.sea_name(), kSeaNameLengthMax);
   ONESEA_ASSIGN_OR_RETURN(info.probes_m, ReadProbes(proto.probes()));
   for (Vec2d probe : info.probes_m) {
     ONESEA_RETURN_IF_ERROR(
@@ -201,7 +185,7 @@ absl::StatusOr<SessionInfo> FromProto(const v1::SessionInfo& proto) {
     ONESEA_RETURN_IF_ERROR(
         CheckReal("session.", "probes.y_m", probe.y, -kQueryCoordinateMaxM, kQueryCoordinateMaxM));
   }
-  info.transform = proto.transform();
+  info.transform = Printable(proto.transform(), kSessionNameLengthMax);
   return info;
 }
 

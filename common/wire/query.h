@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "absl/status/statusor.h"
 #include "common/base/sim_time.h"
 #include "common/base/vec.h"
 #include "common/sea/point_query.h"
@@ -35,7 +36,10 @@ struct QueryAnswer {
   std::vector<std::int32_t> dry_indices;      ///< points above the surface: zeros in the two below
   std::vector<float> depth_velocity_m_per_s;  ///< (n x 3)
   std::vector<float> dynamic_pressure_pa;     ///< (n)
-  absl::Status status;                        ///< streams only: why there is no answer
+  absl::Status status;                        ///< streams and steps: why there is no answer
 };
+
+/// `answer`, or one that carries its error in `status`, for request `id`.
+QueryAnswer OrError(absl::StatusOr<QueryAnswer> answer, std::int64_t id);
 
 }  // namespace onesea::wire

@@ -25,9 +25,9 @@ absl::Status CheckName(const std::string& name) {
       std::all_of(name.begin(), name.end(), allowed)) {
     return absl::OkStatus();
   }
-  return absl::InvalidArgumentError(absl::StrCat("name: '", name.substr(0, kSessionNameLengthMax),
-                                                 "' is not of the form [a-z0-9-]{1,",
-                                                 kSessionNameLengthMax, "}"));
+  return absl::InvalidArgumentError(
+      absl::StrCat("name: '", wire::Printable(name, kSessionNameLengthMax),
+                   "' is not of the form [a-z0-9-]{1,", kSessionNameLengthMax, "}"));
 }
 
 absl::Status CheckPlace(const SessionSpec& spec) {

@@ -62,15 +62,17 @@ void StepReactor::Stepped(const absl::StatusOr<StepResult>& result) {
     Finish(grpc::Status::OK);
     return;
   }
-  const absl::Status posted = worker_.Post([this, tick = result->tick] { AnswerQuery(tick); });
-  if (!posted.ok()) Finish(ToGrpc(posted));
+  const absl::Status posted = worker_.Post([this, tick = result->tick] {
+    if (!query_->tick && !query_->time_s) query_->tick = tick;
+    FinishWith(desk_.Answer(session_, *query_));
+  });
+  if (!posted.ok()) FinishWith(posted);
 }
 
-void StepReactor::AnswerQuery(Tick tick) {
-  if (!query_->tick && !query_->time_s) query_->tick = tick;
-  const absl::StatusOr<wire::QueryAnswer> answer = desk_.Answer(session_, *query_);
-  if (answer.ok()) ToProto(*answer, response_->mutable_query());
-  Finish(ToGrpc(answer.status()));
+// The step is made: whoever asked learns of it, whatever became of the query.
+void StepReactor::FinishWith(absl::StatusOr<wire::QueryAnswer> answer) {
+  ToProto(wire::OrError(std::move(answer), query_->id), response_->mutable_query());
+  Finish(grpc::Status::OK);
 }
 
 }  // namespace onesea::server

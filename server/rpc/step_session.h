@@ -38,7 +38,7 @@ class StepReactor final : public grpc::ServerUnaryReactor {
 
   absl::Status Prepare(Registry& registry);
   void Stepped(const absl::StatusOr<StepResult>& result);
-  void AnswerQuery(Tick tick);
+  void FinishWith(absl::StatusOr<wire::QueryAnswer> answer);
 
   const v1::StepSessionRequest* request_;
   v1::StepSessionResponse* response_;

@@ -5,17 +5,6 @@
 #include "common/wire/proto_query.h"
 
 namespace onesea::server {
-namespace {
-
-wire::QueryAnswer OrError(absl::StatusOr<wire::QueryAnswer> answer, std::int64_t id) {
-  if (answer.ok()) return *std::move(answer);
-  wire::QueryAnswer error;
-  error.id = id;
-  error.status = answer.status();
-  return error;
-}
-
-}  // namespace
 
 StreamQueriesReactor::StreamQueriesReactor(QueryDesk& desk, Worker& worker)
     : desk_(desk), worker_(worker) {
@@ -28,7 +17,7 @@ void StreamQueriesReactor::OnReadDone(bool ok) {
     if (request.ok()) {
       Take(*std::move(request));
     } else {
-      Enqueue(OrError(request.status(), request_.id()), false);
+      Enqueue(wire::OrError(request.status(), request_.id()), false);
     }
   }
   bool over = false;
@@ -44,7 +33,7 @@ void StreamQueriesReactor::OnReadDone(bool ok) {
 void StreamQueriesReactor::Take(wire::QueryRequest request) {
   const std::int64_t id = request.id;
   if (!QueryDesk::IsHeavy(request)) {
-    Enqueue(OrError(desk_.Answer(request), id), false);
+    Enqueue(wire::OrError(desk_.Answer(request), id), false);
     return;
   }
   {
@@ -52,9 +41,9 @@ void StreamQueriesReactor::Take(wire::QueryRequest request) {
     ++posted_;
   }
   const absl::Status posted = worker_.Post([this, request = std::move(request)] {
-    Enqueue(OrError(desk_.Answer(request), request.id), true);
+    Enqueue(wire::OrError(desk_.Answer(request), request.id), true);
   });
-  if (!posted.ok()) Enqueue(OrError(posted, id), true);
+  if (!posted.ok()) Enqueue(wire::OrError(posted, id), true);
 }
 
 void StreamQueriesReactor::Enqueue(const wire::QueryAnswer& answer, bool was_posted) {

@@ -64,7 +64,7 @@ absl::StatusOr<std::shared_ptr<SessionLoop>> Registry::Find(std::string_view nam
   if (found != sessions_.end() && found->second != nullptr) return found->second;
   const auto append_name = [](std::string* out, const auto& entry) { out->append(entry.first); };
   return absl::NotFoundError(
-      absl::StrCat("session: '", wire::Text(name.substr(0, kSessionNameLengthMax)),
+      absl::StrCat("session: '", wire::Printable(name, kSessionNameLengthMax),
                    "' is not here; there are: ", absl::StrJoin(sessions_, ", ", append_name)));
 }
 

@@ -151,6 +151,16 @@ TEST(Registry, UnknownNamesAreAnsweredWithTheKnown) {
   EXPECT_THAT(std::string(status.message()), HasSubstr("'x' is not here; there are: a"));
 }
 
+TEST(Registry, AnUnknownNameIsQuotedSoThatATerminalMayShowIt) {
+  const Registry registry;
+  std::string name(63, 'x');
+  name += "\u00e4";  // its two bytes are the 64th and 65th
+  EXPECT_EQ(registry.Find(name).status().message(),
+            "session: '" + std::string(63, 'x') + "' is not here; there are: ");
+  EXPECT_EQ(registry.Find("a\x1b[2J").status().message(),
+            "session: 'a?[2J' is not here; there are: ");
+}
+
 TEST(Registry, ABadSpecLeavesNoName) {
   Registry registry;
   SessionSpec spec = SmallSession("a");

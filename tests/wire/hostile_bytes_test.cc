@@ -78,6 +78,26 @@ TEST(HostileBytes, BitFlipsAreRefusedOrStayInRange) {
   EXPECT_GT(refused, 1000);
 }
 
+// A server that means harm could command the terminals of those who list its sessions.
+TEST(HostileBytes, WhatAServerSaysOfItselfIsPrintable) {
+  Frame frame = FullFrame(ParametricSea());
+  frame.welcome->session.name = "a\x1b[2Jb";
+  frame.welcome->session.sea_name = std::string(199, 's') + "\u00e4 and more";
+  frame.welcome->session.transform = "own\n";
+  frame.farewell = "\u6ce2\a";
+  const absl::StatusOr<Frame> read = DecodeFrame(EncodeFrame(frame));
+  ASSERT_TRUE(read.ok()) << read.status();
+  EXPECT_EQ(read->welcome->session.name, "a?[2Jb");
+  EXPECT_EQ(read->welcome->session.sea_name, std::string(199, 's'));
+  EXPECT_EQ(read->welcome->session.transform, "own?");
+  EXPECT_EQ(*read->farewell, "\u6ce2?");
+  v1::QueryPointsResponse answer;
+  answer.set_error_code(5);
+  answer.set_error_message("no\x7f");
+  EXPECT_EQ(FromProto(answer)->status.message(), "no?");
+  EXPECT_EQ(Printable("\xff\xfe\u00e4", 3), "??");
+}
+
 // Each tick is one that some rate allows; what counts is the century, not the number.
 TEST(HostileBytes, ATickBeyondACenturyOfItsRateIsRefused) {
   Frame frame = FullFrame(ParametricSea());
