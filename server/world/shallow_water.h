@@ -31,8 +31,8 @@
 /// exactly flat over any bottom and around any island.
 ///
 /// Absorbing edges (edge_cells > 0): the outer faces let waves leave with √(gH), exact at normal
-/// incidence, and waves fade over edge_cells; the level far outside is 0. Of a round wave some 10
-/// to 20 % comes back, the less the shorter it is. edge_cells = 0: walls.
+/// incidence, and waves fade over edge_cells; the level far outside is 0. Of a round wave some 4 to
+/// 13 % comes back, the less the shorter it is. edge_cells = 0: walls.
 ///
 /// Solids: without rest heights a cell's faces are open to 1 - solid: walls reflect and volume is
 /// kept. With rest heights the level of a solid cell is held there instead (water is exchanged with

@@ -17,8 +17,10 @@ namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::CappedTag<float, 16>;
 using V = hn::Vec<D>;
 
-// Lines that go through the recurrences side by side: two vectors hide the latency of the division.
+// Lines n and n + kHalf of a strip go through the recurrences side by side, to hide latencies and to
+// share a division; the same two on every target, since that changes their last bits.
 constexpr int kPair = 2;
+constexpr std::size_t kHalf = kStripLines / kPair;
 // Numbers smaller than this become zero; left alone they decay into slow subnormal ones.
 constexpr float kTiny = 1e-15f;
 // Time in which a cell that is half solid follows its rest height [s].
@@ -95,8 +97,9 @@ HWY_INLINE V LeavingSpeed(const Numbers& n, const Cell& cell) {
 }
 
 struct Face {
-  V depth;  // of the flow; 0 if a solid shuts it, -1 if it is dry
-  V push;   // g dt times the gradient of the head
+  V depth;   // of the flow
+  V marked;  // the same, but -1 where the face is dry
+  V push;    // g dt times the gradient of the head
 };
 
 // Water runs over the higher of the two grounds. Where the bottom is smooth the depth is that of
@@ -116,9 +119,10 @@ HWY_INLINE Face FaceBetween(const Numbers& n, const Cell& a, const Cell& b, V ve
     rise = hn::Add(rise, hn::Sub(b.pressure, a.pressure));
     depth = hn::Mul(depth, hn::Max(hn::Min(a.free, b.free), hn::Set(d, n.held)));
   }
-  depth = hn::IfThenElseZero(hn::Gt(depth, hn::Set(d, kFilmDepthM)), depth);
-  depth = hn::IfThenElse(hn::Gt(weir, hn::Set(d, kFilmDepthM)), depth, hn::Set(d, -1.0f));
-  return {depth, hn::Mul(hn::Set(d, n.gravity_step), rise)};
+  depth = hn::Max(depth, hn::Zero(d));
+  const auto wet = hn::Gt(weir, hn::Set(d, kFilmDepthM));
+  return {hn::IfThenElseZero(wet, depth), hn::IfThenElse(wet, depth, hn::Set(d, -1.0f)),
+          hn::Mul(hn::Set(d, n.gravity_step), rise)};
 }
 
 // Forward elimination of the tridiagonal system of the rise of the level in this step: on return
@@ -127,7 +131,6 @@ HWY_INLINE Face FaceBetween(const Numbers& n, const Cell& a, const Cell& b, V ve
 template <bool kForced>
 HWY_INLINE void Eliminate(const Numbers& n, const Line& line, ShallowFields& f, std::size_t lane) {
   const D d;
-  const std::size_t lanes = hn::Lanes(d);
   const V one = hn::Set(d, 1.0f), step = hn::Set(d, n.step), theta = hn::Set(d, n.theta);
   const V coupling = hn::Set(d, n.coupling), step_theta = hn::Mul(step, theta);
   const V row_least = hn::Set(d, 1.0f - n.held);
@@ -135,50 +138,54 @@ HWY_INLINE void Eliminate(const Numbers& n, const Line& line, ShallowFields& f, 
   Cell cell[kPair];
   V before[kPair], gain[kPair], offset[kPair], inflow[kPair], leaving[kPair];
   for (int k = 0; k < kPair; ++k) {
-    cell[k] = LoadCell<kForced>(line, 0, lane + k * lanes);
+    cell[k] = LoadCell<kForced>(line, 0, lane + k * kHalf);
     leaving[k] = LeavingSpeed(n, cell[k]);
     inflow[k] = hn::Neg(hn::Mul(leaving[k], cell[k].level));
     before[k] = gain[k] = offset[k] = hn::Zero(d);
   }
   for (std::size_t i = 0; i < cells; ++i) {
+    V left[kPair], right[kPair], rise[kPair], pivot[kPair];
     for (int k = 0; k < kPair; ++k) {
-      const std::size_t at = i * kStripLines + lane + k * lanes;
+      const std::size_t own = lane + k * kHalf, at = i * kStripLines + own;
       V after = hn::Zero(d), outflow;
       Cell next = cell[k];
       if (i + 1 < cells) {
-        next = LoadCell<kForced>(line, i + 1, lane + k * lanes);
-        const V velocity = hn::LoadU(d, line.velocity + i * line.stride + lane + k * lanes);
+        next = LoadCell<kForced>(line, i + 1, own);
+        const V velocity = hn::LoadU(d, line.velocity + i * line.stride + own);
         const Face face = FaceBetween<kForced>(n, cell[k], next, velocity);
-        const V depth = hn::Max(face.depth, hn::Zero(d));
-        outflow = hn::Mul(depth, hn::Sub(velocity, hn::Mul(theta, face.push)));
-        after = hn::Mul(coupling, depth);
-        hn::Store(face.depth, d, f.depth.get() + at);
+        outflow = hn::Mul(face.depth, hn::Sub(velocity, hn::Mul(theta, face.push)));
+        after = hn::Mul(coupling, face.depth);
+        hn::Store(face.marked, d, f.depth.get() + at);
         hn::Store(hn::Sub(velocity, face.push), d, f.moved.get() + at);
       } else {
-        const V speed = LeavingSpeed(n, cell[k]);
-        leaving[k] = hn::Add(leaving[k], speed);
-        outflow = hn::Mul(speed, cell[k].level);
+        leaving[k] = LeavingSpeed(n, cell[k]);
+        outflow = hn::Mul(leaving[k], cell[k].level);
       }
-      V left = before[k], right = after;
-      V rise = hn::Mul(step, hn::Sub(inflow[k], outflow));
-      V own = hn::Mul(step_theta, leaving[k]);
+      left[k] = before[k];
+      right[k] = after;
+      rise[k] = hn::Mul(step, hn::Sub(inflow[k], outflow));
+      V own_part = one;
+      if (i == 0 || i + 1 == cells) own_part = hn::Add(one, hn::Mul(step_theta, leaving[k]));
       if constexpr (kForced) {
         const V row = hn::Max(cell[k].free, row_least);
-        left = hn::Mul(row, left);
-        right = hn::Mul(row, right);
-        rise = hn::Mul(row, rise);
-        own = hn::Mul(row, own);
+        left[k] = hn::Mul(row, left[k]);
+        right[k] = hn::Mul(row, right[k]);
+        rise[k] = hn::Mul(row, rise[k]);
       }
-      const V diagonal = hn::Add(hn::Add(one, own), hn::Add(left, right));
-      const V inverse = hn::Div(one, hn::Sub(diagonal, hn::Mul(left, gain[k])));
-      gain[k] = hn::Mul(right, inverse);
-      offset[k] = WithoutTiny(hn::Mul(hn::Add(rise, hn::Mul(left, offset[k])), inverse));
-      hn::Store(gain[k], d, f.gain.get() + at);
-      hn::Store(offset[k], d, f.offset.get() + at);
-      leaving[k] = hn::Zero(d);
+      const V diagonal = hn::Add(own_part, hn::Add(left[k], right[k]));
+      pivot[k] = hn::Sub(diagonal, hn::Mul(left[k], gain[k]));
       inflow[k] = outflow;
       before[k] = after;
       cell[k] = next;
+    }
+    const V both = hn::Div(one, hn::Mul(pivot[0], pivot[1]));
+    for (int k = 0; k < kPair; ++k) {
+      const std::size_t at = i * kStripLines + lane + k * kHalf;
+      const V inverse = hn::Mul(both, pivot[1 - k]);
+      gain[k] = hn::Mul(right[k], inverse);
+      offset[k] = WithoutTiny(hn::Mul(hn::Add(rise[k], hn::Mul(left[k], offset[k])), inverse));
+      hn::Store(gain[k], d, f.gain.get() + at);
+      hn::Store(offset[k], d, f.offset.get() + at);
     }
   }
 }
@@ -193,14 +200,13 @@ HWY_INLINE void StoreOutflow(const Numbers& n, const Line& line, ShallowFields& 
   hn::Store(west ? hn::Neg(flux) : flux, d, f.flux.get() + face * kStripLines + lane);
 }
 
-// A thin sheet is slowed by the ground: u' = -C |u| u / H, implicitly.
+// A thin sheet is slowed by the ground: u' = -C |u| u / H, implicitly. Nothing moves at H = 0.
 HWY_INLINE V SlowSheet(const Numbers& n, V depth, V velocity) {
   const D d;
-  const auto sheet = hn::And(hn::Lt(depth, hn::Set(d, kSheetDepthM)), hn::Gt(depth, hn::Zero(d)));
-  if (hn::AllFalse(d, sheet)) return velocity;
   const V drag = hn::Mul(hn::Set(d, n.sheet_drag), hn::Abs(velocity));
-  const V slowed = hn::Div(hn::Mul(velocity, depth), hn::Add(depth, drag));
-  return hn::IfThenElse(sheet, slowed, velocity);
+  const V share = hn::Div(depth, hn::Max(hn::Add(depth, drag), hn::Set(d, kFilmDepthM)));
+  const auto sheet = hn::Lt(depth, hn::Set(d, kSheetDepthM));
+  return hn::IfThenElse(sheet, hn::Mul(share, velocity), velocity);
 }
 
 // What a dry face has when water gets there: the velocity of the wet face behind it. (Advection
@@ -216,13 +222,12 @@ HWY_INLINE V Inherit(V west_depth, V west, V east_depth, V east) {
 // Back substitution: the new velocity of every face, and the flux through it during the step.
 HWY_INLINE void Substitute(const Numbers& n, const Line& line, ShallowFields& f, std::size_t lane) {
   const D d;
-  const std::size_t lanes = hn::Lanes(d), cells = line.cells;
+  const std::size_t cells = line.cells;
   const V zero = hn::Zero(d), theta = hn::Set(d, n.theta), rest = hn::Set(d, 1.0f - n.theta);
   const V pull = hn::Mul(theta, hn::Set(d, n.gravity_step));
-  V rise[kPair], keep[kPair], depth[kPair], old[kPair], east_depth[kPair], east_old[kPair];
+  V rise[kPair], depth[kPair], old[kPair], east_depth[kPair], east_old[kPair];
   for (int k = 0; k < kPair; ++k) {
-    const std::size_t own = lane + k * lanes, last = cells - 1;
-    keep[k] = hn::Mul(hn::Set(d, n.keep_velocity), hn::LoadU(d, line.keep_across + own));
+    const std::size_t own = lane + k * kHalf, last = cells - 1;
     rise[k] = hn::Load(d, f.offset.get() + last * kStripLines + own);
     StoreOutflow(n, line, f, last, cells, own, rise[k], false);
     east_depth[k] = east_old[k] = zero;
@@ -230,9 +235,9 @@ HWY_INLINE void Substitute(const Numbers& n, const Line& line, ShallowFields& f,
     old[k] = hn::LoadU(d, line.velocity + (last - 1) * line.stride + own);
   }
   for (std::size_t i = cells - 1; i-- > 0;) {
-    const V along = hn::Set(d, line.keep_along[i]);
+    const V keep = hn::Set(d, line.keep_along[i] * n.keep_velocity);
     for (int k = 0; k < kPair; ++k) {
-      const std::size_t own = lane + k * lanes, at = i * kStripLines + own;
+      const std::size_t own = lane + k * kHalf, at = i * kStripLines + own;
       const V next = rise[k];
       rise[k] =
           hn::Add(hn::Load(d, f.offset.get() + at), hn::Mul(hn::Load(d, f.gain.get() + at), next));
@@ -245,14 +250,12 @@ HWY_INLINE void Substitute(const Numbers& n, const Line& line, ShallowFields& f,
       const V mean = hn::Add(hn::Mul(theta, fresh), hn::Mul(rest, old[k]));
       const V wet_depth = hn::Max(depth[k], zero);
       hn::Store(hn::Mul(wet_depth, mean), d, f.flux.get() + at + kStripLines);
-      fresh = SlowSheet(n, depth[k], fresh);
-      const auto dry = hn::Lt(depth[k], zero);
-      fresh = hn::IfThenElseZero(hn::Gt(depth[k], zero), fresh);
-      if (!hn::AllFalse(d, dry)) {
+      const auto shallow = hn::Lt(depth[k], hn::Set(d, kSheetDepthM));
+      if (!hn::AllFalse(d, shallow)) {
         const V inherited = Inherit(west_depth, west_old, east_depth[k], east_old[k]);
-        fresh = hn::IfThenElse(dry, inherited, fresh);
+        fresh = hn::IfThenElse(hn::Lt(depth[k], zero), inherited, SlowSheet(n, wet_depth, fresh));
       }
-      const V kept = WithoutTiny(hn::Mul(hn::Mul(along, keep[k]), fresh));
+      const V kept = WithoutTiny(hn::Mul(keep, fresh));
       const V limit = hn::Set(d, n.velocity_max);
       hn::StoreU(hn::Min(hn::Max(kept, hn::Neg(limit)), limit), d,
                  line.velocity + i * line.stride + own);
@@ -263,7 +266,7 @@ HWY_INLINE void Substitute(const Numbers& n, const Line& line, ShallowFields& f,
     }
   }
   for (int k = 0; k < kPair; ++k) {
-    StoreOutflow(n, line, f, 0, 0, lane + k * lanes, rise[k], true);
+    StoreOutflow(n, line, f, 0, 0, lane + k * kHalf, rise[k], true);
   }
 }
 
@@ -326,10 +329,10 @@ HWY_INLINE void Move(const Numbers& n, const Line& line, ShallowFields& f, std::
 template <bool kForced>
 HWY_INLINE void SweepStrip(const Numbers& n, const Line& line, ShallowFields& f) {
   const std::size_t lanes = hn::Lanes(D());
-  for (std::size_t lane = 0; lane < kStripLines; lane += kPair * lanes) {
+  for (std::size_t lane = 0; lane < kHalf; lane += lanes) {
     Eliminate<kForced>(n, line, f, lane);
     Substitute(n, line, f, lane);
-    for (int k = 0; k < kPair; ++k) Move<kForced>(n, line, f, lane + k * lanes);
+    for (int k = 0; k < kPair; ++k) Move<kForced>(n, line, f, lane + k * kHalf);
   }
 }
 

@@ -178,7 +178,7 @@ TEST(ShallowWater, EdgesTakeWavesOfAnyLength) {
     }
     RecordProperty("reflected_" + std::to_string(static_cast<int>(width_m)),
                    std::to_string(error_m / incident_m));
-    EXPECT_LT(error_m, 0.25 * incident_m) << "pulse of " << width_m << " m";
+    EXPECT_LT(error_m, 0.15 * incident_m) << "pulse of " << width_m << " m";
   }
 }
 
