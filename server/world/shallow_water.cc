@@ -19,8 +19,6 @@ namespace {
 // Two passes through the edge multiply a wave by this at most (before the outer face takes its
 // part).
 constexpr double kEdgeResidue = 0.2;
-// Padding of the rows [floats]: one cache line.
-constexpr std::size_t kRowPadding = 16;
 
 class ShallowWater final : public WaveSolver {
  public:
@@ -41,9 +39,6 @@ class ShallowWater final : public WaveSolver {
            static_cast<std::size_t>(j % kStripLines);
   }
   float RestLevel(int i, int j) const { return std::max(0.0f, f_.bottom[At(i, j)]); }
-  // Water that flows east or north out of (i, j) [m²/s]; 0 beyond the outer faces.
-  float FlowEast(int i, int j) const;
-  float FlowNorth(int i, int j) const;
   void Allocate();
   void SetBottom();
   void SetEdges();
@@ -83,7 +78,7 @@ void ShallowWater::Allocate() {
   f_.keep_x = sea::AllocateZeros<float>(f_.columns);
   f_.keep_y = sea::AllocateZeros<float>(f_.rows);
   const std::size_t strip =
-      (static_cast<std::size_t>(std::max(f_.columns, f_.rows)) + 1) * kStripLines;
+      (static_cast<std::size_t>(std::max(f_.columns, f_.rows)) + kRowPadding) * kStripLines;
   for (sea::FloatArray* array : {&f_.gain, &f_.offset, &f_.depth, &f_.moved, &f_.flux,
                                  &f_.level_across, &f_.pressure_across, &f_.solid_across}) {
     *array = sea::AllocateZeros<float>(strip);
@@ -168,36 +163,10 @@ void ShallowWater::Step(const StepForcing& forcing) {
   StepShallowWater(f_, whole);
 }
 
-float ShallowWater::FlowEast(int i, int j) const {
-  if (i < 0 || i + 1 >= f_.columns) return 0.0f;
-  const float bed = std::max(f_.bottom[At(i, j)], f_.bottom[At(i + 1, j)]);
-  const float level = std::max(f_.level[At(i, j)], f_.level[At(i + 1, j)]);
-  return std::max(0.0f, level - bed) * f_.u[Across(i, j)];
-}
-
-float ShallowWater::FlowNorth(int i, int j) const {
-  if (j < 0 || j + 1 >= f_.rows) return 0.0f;
-  const float bed = std::max(f_.bottom[At(i, j)], f_.bottom[At(i, j + 1)]);
-  const float level = std::max(f_.level[At(i, j)], f_.level[At(i, j + 1)]);
-  return std::max(0.0f, level - bed) * f_.v[At(i, j)];
-}
-
 void ShallowWater::Velocity(std::span<float> x, std::span<float> y, std::span<float> z) const {
   ONESEA_CHECK(x.size() == cells_ && y.size() == cells_ && z.size() == cells_) << "one per cell";
-  const float per_cell = static_cast<float>(1.0 / spec_.cells.cell_m);
-  for (int j = 0; j < f_.rows; ++j) {
-    for (int i = 0; i < f_.columns; ++i) {
-      const std::size_t n = static_cast<std::size_t>(j) * f_.columns + i;
-      if (!(f_.level[At(i, j)] - f_.bottom[At(i, j)] > kDryDepthM)) {
-        x[n] = y[n] = z[n] = 0.0f;
-        continue;
-      }
-      x[n] = 0.5f * (f_.u[Across(i, j)] + (i > 0 ? f_.u[Across(i - 1, j)] : 0.0f));
-      y[n] = 0.5f * (f_.v[At(i, j)] + (j > 0 ? f_.v[At(i, j - 1)] : 0.0f));
-      z[n] = per_cell *
-             ((FlowEast(i - 1, j) - FlowEast(i, j)) + (FlowNorth(i, j - 1) - FlowNorth(i, j)));
-    }
-  }
+  ShallowWaterVelocities(f_, static_cast<float>(1.0 / spec_.cells.cell_m), x.data(), y.data(),
+                         z.data());
 }
 
 void ShallowWater::Adopt(const WaveSolver& other) {

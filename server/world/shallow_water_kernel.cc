@@ -17,8 +17,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::CappedTag<float, 16>;
 using V = hn::Vec<D>;
 
-// Lines n and n + kHalf of a strip go through the recurrences side by side, to hide latencies and to
-// share a division; the same two on every target, since that changes their last bits.
+// Lines n and n + kHalf of a strip go through the recurrences side by side, to hide latencies and
+// to share a division; the same two on every target, since that changes their last bits.
 constexpr int kPair = 2;
 constexpr std::size_t kHalf = kStripLines / kPair;
 // Numbers smaller than this become zero; left alone they decay into slow subnormal ones.

@@ -10,6 +10,9 @@ namespace onesea::world {
 /// Lines that one strip of a sweep holds, on every SIMD target.
 inline constexpr int kStripLines = 32;
 
+/// Floats behind each natural row: one cache line, since power-of-two strides share L1 sets.
+inline constexpr int kRowPadding = 16;
+
 /// Film [m] that doesn't flow: below it a face is shut, so that no product underflows.
 inline constexpr float kFilmDepthM = 1e-6f;
 /// Cells with less water [m] than this report a height and a velocity of zero.
@@ -42,7 +45,7 @@ struct ShallowFields {
   float velocity_max = 0.0f;   ///< [m/s] of the faces
   bool open = false;           ///< waves leave through the outer faces
 
-  // Scratch of one strip: (max(columns, rows) + 1) x kStripLines each.
+  // Scratch of one strip: (max(columns, rows) + kRowPadding) x kStripLines each.
   sea::FloatArray gain, offset, depth, moved, flux, level_across, pressure_across, solid_across;
 };
 
@@ -56,5 +59,10 @@ struct ShallowForcing {
 
 /// One step: a sweep along x, then one along y.
 void StepShallowWater(ShallowFields& fields, const ShallowForcing& forcing);
+
+/// Of the water at the surface of every cell [m/s], (rows x columns) each; `per_cell` is 1 / dx.
+/// Uses the fields' scratch.
+void ShallowWaterVelocities(const ShallowFields& fields, float per_cell, float* x, float* y,
+                            float* z);
 
 }  // namespace onesea::world
