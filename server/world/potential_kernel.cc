@@ -21,6 +21,14 @@ HWY_INLINE V Calmed(V value) {
   return hn::IfThenZeroElse(hn::Lt(hn::Abs(value), hn::Set(d, kCalm)), value);
 }
 
+// keep_x keep_y; inside the border keep_x need not be read, and 1 changes no bit.
+HWY_INLINE V Keep(const GridPass& grid, V keep_y, int x) {
+  const D d;
+  const int lanes = static_cast<int>(hn::Lanes(d));
+  if (x >= grid.border && x + lanes <= grid.columns - grid.border) return keep_y;
+  return hn::Mul(hn::Load(d, grid.keep_x + x), keep_y);
+}
+
 HWY_INLINE void PotentialRow(const GridPass& grid, const PotentialPass& pass, int y) {
   const D d;
   float* phi = pass.phi->Row(y);
@@ -32,7 +40,7 @@ HWY_INLINE void PotentialRow(const GridPass& grid, const PotentialPass& pass, in
       V level = hn::Load(d, height + x);
       if (head != nullptr) level = hn::Add(level, hn::LoadU(d, head + x));
       const V moved = hn::Sub(hn::Load(d, phi + x), hn::Mul(g_dt, level));
-      const V keep = hn::Mul(hn::Load(d, grid.keep_x + x), keep_y);
+      const V keep = Keep(grid, keep_y, x);
       hn::Store(Calmed(hn::Mul(moved, keep)), d, phi + x);
     }
   };
@@ -61,7 +69,7 @@ HWY_INLINE void UniformRow(const GridPass& grid, const HeightPass& pass, int y) 
     const V along =
         hn::Sub(hn::Sub(hn::Load(d, north + x), centre), hn::Sub(centre, hn::Load(d, south + x)));
     const V moved = hn::Sub(hn::Load(d, height + x), hn::Mul(conductance, hn::Add(across, along)));
-    const V keep = hn::Mul(hn::Load(d, grid.keep_x + x), keep_y);
+    const V keep = Keep(grid, keep_y, x);
     hn::Store(Calmed(hn::Mul(moved, keep)), d, height + x);
   }
 }
@@ -91,7 +99,7 @@ HWY_INLINE void FacesRow(const GridPass& grid, const HeightPass& pass, int y) {
         hn::Mul(hn::Load(d, south_face + x), hn::Sub(centre, hn::Load(d, south + x)));
     const V moved = hn::Sub(hn::Load(d, height + x),
                             hn::Add(hn::Sub(to_east, from_west), hn::Sub(to_north, from_south)));
-    const V keep = hn::Mul(hn::Load(d, grid.keep_x + x), keep_y);
+    const V keep = Keep(grid, keep_y, x);
     hn::Store(Calmed(hn::Mul(moved, keep)), d, height + x);
   }
 }

@@ -15,6 +15,7 @@ struct GridPass {
   float* height = nullptr;  ///< (rows x columns)
   const float* keep_x = nullptr;
   const float* keep_y = nullptr;
+  int border = 0;  ///< keep_x is 1 from this column to as many before the end
 };
 inline constexpr float kCalm = 1e-15f;
 

@@ -92,7 +92,8 @@ GridPass PotentialSolver::Grid() {
           .rows = spec_.cells.rows,
           .height = height_.get(),
           .keep_x = keep_x_.get(),
-          .keep_y = keep_y_.get()};
+          .keep_y = keep_y_.get(),
+          .border = spec_.edge_cells};
 }
 
 void PotentialSolver::Step(const StepForcing& forcing) {
