@@ -70,7 +70,7 @@ void Strip(HullPainter& painter, Vec3d low_aft, Vec3d low_fore, Vec3d high_fore,
 }
 
 void PaintShell(HullPainter& painter, double length, double beam, double depth) {
-  constexpr int kStations = 25;
+  constexpr int kStations = 17;
   const double wall = std::max(0.03, 0.035 * beam), rise = 0.24 * depth;
   // The bulwark stands on the deck's edge and leans out a little; it ends short of the stem's tip.
   const auto top_of = [&](const Section& s) {
@@ -78,7 +78,7 @@ void PaintShell(HullPainter& painter, double length, double beam, double depth) 
                  s.deck.z + rise * (0.8 + 0.5 * std::max(0.0, s.deck.x / length))};
   };
   const auto inwards = [&](Vec3d p) {
-    return Vec3d{p.x - 0.5 * wall, std::min(0.0, p.y + wall), p.z};
+    return Vec3d{p.x - wall * std::max(0.0, p.x / length), std::min(0.0, p.y + wall), p.z};
   };
   for (int n = 0; n + 1 < kStations; ++n) {
     const Section a = SectionAt(static_cast<double>(n) / (kStations - 1), length, beam, depth);
@@ -95,15 +95,19 @@ void PaintShell(HullPainter& painter, double length, double beam, double depth) 
     painter.Quad(inwards(a.deck), inwards(b.deck), Mirror(inwards(b.deck)), Mirror(inwards(a.deck)),
                  kDeck);
     if (n > 0) continue;
-    // The transom.
-    painter.Quad(Mirror(a.keel), Mirror(a.chine), a.chine, a.keel, kBottom);
-    painter.Quad(a.chine, Mirror(a.chine), Mirror(a.waterline), a.waterline, kBottom);
-    painter.Quad(a.waterline, Mirror(a.waterline), Mirror(a.sheer), a.sheer, kTopside);
-    painter.Quad(a.sheer, Mirror(a.sheer), Mirror(a.deck), a.deck, kRubber);
+    // The transom, seen from aft, and its bulwark's top and inner face.
+    const auto aft = [&](Vec3d low, Vec3d high, const Paint& paint) {
+      painter.Quad(low, high, Mirror(high), Mirror(low), paint);
+    };
+    aft(a.keel, a.paint, kBottom);
+    aft(a.paint, a.chine, kTopside);
+    aft(a.chine, a.waterline, kBottom);
+    aft(a.waterline, a.sheer, kTopside);
+    aft(a.sheer, a.deck, kRubber);
+    aft(a.deck, ta, kTopside);
     const Vec3d back = ta + Vec3d{wall, 0, 0}, foot = a.deck + Vec3d{wall, 0, 0};
-    painter.Quad(a.deck, Mirror(a.deck), Mirror(ta), ta, kTopside);
-    painter.Quad(ta, Mirror(ta), Mirror(back), back, kWhite);
-    painter.Quad(foot, back, Mirror(back), Mirror(foot), kWhite);
+    painter.Quad(ta, back, Mirror(back), Mirror(ta), kWhite);
+    painter.Quad(foot, Mirror(foot), Mirror(back), back, kWhite);
   }
 }
 

@@ -201,6 +201,27 @@ TEST(HullModelsTest, FacesLookOutwards) {
   }
 }
 
+// The faces of a closed body, each as a vector along its outward normal, add up to nothing: one
+// that looks inwards would not be drawn.
+TEST(HullModelsTest, FacesAddUpToNothing) {
+  for (const SharedHullMesh& mesh :
+       {BoatModel(), BuoyModel(), CrateModel(), BarrelModel(), BallModel(), RaftModel()}) {
+    Vec3d sum;
+    double area = 0.0;
+    for (std::size_t n = 0; n + 2 < mesh->corners.size(); n += 3) {
+      const auto at = [&](std::size_t m) {
+        const auto& p = mesh->corners[n + m].position_m;
+        return Vec3d{p[0], p[1], p[2]};
+      };
+      const Vec3d u = at(1) - at(0), v = at(2) - at(0);
+      const Vec3d face{u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x};
+      sum = sum + face;
+      area += Norm(face);
+    }
+    EXPECT_LT(Norm(sum), 0.01 * area);
+  }
+}
+
 TEST(HullModelsTest, CreaseSeparatesNormals) {
   // A cube's corners keep their faces' normals; a fine ball's are those of the sphere.
   const std::vector<Vec3d> corners = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
+#include <span>
 
 #include "common/base/check.h"
 
@@ -30,27 +32,62 @@ void SetAttribute(GLuint location, GLint size, std::size_t offset) {
                         reinterpret_cast<const void*>(offset));
 }
 
+void Clear() {
+  glDepthMask(GL_TRUE);
+  glClearColor(0, 0, 0, 0);
+  glClearDepth(1.0);
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+}
+
 PixelBox Union(const PixelBox& a, const PixelBox& b) {
   return {std::min(a.left, b.left), std::min(a.bottom, b.bottom), std::max(a.right, b.right),
           std::max(a.top, b.top)};
 }
 
-// Pixels that a sphere may cover: all of them from within, none if it is too small to be seen.
-PixelBox PictureOf(const glm::vec4& centre, float radius_m, const FrameBlock& block, int width,
+bool Overlap(const PixelBox& a, const PixelBox& b) {
+  return a.left < b.right && b.left < a.right && a.bottom < b.top && b.bottom < a.top;
+}
+
+// Adds a box; those that overlap become one, so that no pixel is drawn twice.
+void AddDisjoint(PixelBox box, std::vector<PixelBox>& boxes) {
+  for (std::size_t n = 0; n < boxes.size();) {
+    if (!Overlap(box, boxes[n])) {
+      ++n;
+      continue;
+    }
+    box = Union(box, boxes[n]);
+    boxes[n] = boxes.back();
+    boxes.pop_back();
+    n = 0;
+  }
+  boxes.push_back(box);
+}
+
+// Pixels that points may cover: all of them if one is not before the eye, none if they are too
+// close together to be seen.
+PixelBox PictureOf(std::span<const glm::vec3> points, const FrameBlock& block, int width,
                    int height) {
-  const glm::vec4 clip = block.clip_from_world * centre;
-  if (!(clip.w > -radius_m)) return {};
-  if (clip.w < 1.5f * radius_m + 0.3f) return {0, 0, width, height};
-  const float radius = radius_m / (block.ray_forward.w * clip.w);
-  if (radius < 0.3f) return {};
-  const float x = (0.5f + 0.5f * clip.x / clip.w) * static_cast<float>(width);
-  const float y = (0.5f + 0.5f * clip.y / clip.w) * static_cast<float>(height);
-  const float reach = 1.3f * radius + 2.0f;  // a sphere beside the view's middle looks longer
+  glm::vec2 low(1e9f), high(-1e9f);
+  int behind = 0;
+  for (const glm::vec3& point : points) {
+    const glm::vec4 clip = block.clip_from_world * glm::vec4(point, 1.0f);
+    if (!(clip.w > 0.2f)) {
+      ++behind;
+      continue;
+    }
+    const glm::vec2 at = glm::vec2(0.5f + 0.5f * clip.x / clip.w, 0.5f + 0.5f * clip.y / clip.w) *
+                         glm::vec2(width, height);
+    low = glm::min(low, at);
+    high = glm::max(high, at);
+  }
+  if (behind == static_cast<int>(points.size())) return {};
+  if (behind > 0) return {0, 0, width, height};
+  if (std::max(high.x - low.x, high.y - low.y) < 0.3f) return {};
   const auto pixel = [](float at, int most) {
     return static_cast<int>(std::clamp(at, 0.0f, static_cast<float>(most)));
   };
-  return {pixel(x - reach, width), pixel(y - reach, height), pixel(x + reach, width),
-          pixel(y + reach, height)};
+  return {pixel(low.x - 2.0f, width), pixel(low.y - 2.0f, height), pixel(high.x + 2.0f, width),
+          pixel(high.y + 2.0f, height)};
 }
 
 }  // namespace
@@ -96,12 +133,13 @@ const HullPass::Mesh& HullPass::MeshFor(const std::shared_ptr<const HullMesh>& s
   if (mesh.source == source) return mesh;
   mesh.source = source;
   mesh.count = static_cast<GLsizei>(source->corners.size());
-  float radius2 = 0.0f;
+  mesh.low = glm::vec3(1e9f);
+  mesh.high = -mesh.low;
   for (const HullCorner& corner : source->corners) {
-    const auto& p = corner.position_m;
-    radius2 = std::max(radius2, p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
+    const glm::vec3 at = glm::make_vec3(corner.position_m.data());
+    mesh.low = glm::min(mesh.low, at);
+    mesh.high = glm::max(mesh.high, at);
   }
-  mesh.radius_m = std::sqrt(radius2);
   glBindVertexArray(mesh.vertices.id());
   glBindBuffer(GL_ARRAY_BUFFER, mesh.corners.id());
   glBufferData(GL_ARRAY_BUFFER,
@@ -121,23 +159,40 @@ void HullPass::Forget() {
 
 bool HullPass::Prepare(const RenderFrame& frame, const FrameBlock& block, int width, int height) {
   visible_.clear();
+  boxes_.clear();
   if (meshes_.size() > frame.hulls.size()) Forget();
-  box_ = mirror_box_ = {width, height, 0, 0};
+  mirror_box_ = {width, height, 0, 0};
   for (const HullInstance& hull : frame.hulls) {
     if (hull.mesh == nullptr || hull.mesh->corners.empty()) continue;
     if (visible_.size() == kHullsMax) break;
     const Mesh& mesh = MeshFor(hull.mesh);
     const glm::mat4 placement = Placement(hull, frame.camera.position_m);
-    const glm::vec4 centre = placement[3];
-    const PixelBox box = PictureOf(centre, mesh.radius_m, block, width, height);
-    // Its image stands on its head in the water below, drawn out towards the eye by the waves.
-    const glm::vec4 image(centre.x, centre.y, std::min(centre.z, 0.0f), 1.0f);
-    const PixelBox mirror = PictureOf(image, 2.0f * mesh.radius_m + 1.0f, block, width, height);
+    std::array<glm::vec3, 8> corners;
+    std::array<glm::vec3, 16> image;
+    for (std::size_t n = 0; n < corners.size(); ++n) {
+      const glm::vec3 at(n & 1 ? mesh.high.x : mesh.low.x, n & 2 ? mesh.high.y : mesh.low.y,
+                         n & 4 ? mesh.high.z : mesh.low.z);
+      corners[n] = glm::vec3(placement * glm::vec4(at, 1.0f));
+    }
+    // The image stands on its head in the water below; waves draw it out to all sides.
+    const glm::vec3 middle = 0.5f * (corners[0] + corners[7]);
+    const float tall = glm::distance(mesh.low, mesh.high);
+    for (std::size_t n = 0; n < image.size(); ++n) {
+      const glm::vec3 wide = middle + 1.3f * (corners[n % 8] - middle);
+      image[n] = glm::vec3(wide.x, wide.y, n < 8 ? middle.z : middle.z - 1.2f * tall);
+    }
+    const PixelBox box = PictureOf(corners, block, width, height);
+    const PixelBox mirror = PictureOf(image, block, width, height);
     if (box.empty() && mirror.empty()) continue;
-    if (!box.empty()) box_ = Union(box_, box);
+    if (!box.empty()) AddDisjoint(box, boxes_);
     if (!mirror.empty()) mirror_box_ = Union(mirror_box_, mirror);
     visible_.push_back({&mesh, placement, hull.colour});
   }
+  // Near ones first: what they hide fails the depth test before it is shaded.
+  std::sort(visible_.begin(), visible_.end(), [&](const Visible& a, const Visible& b) {
+    return (block.clip_from_world * a.world_from_body[3]).w <
+           (block.clip_from_world * b.world_from_body[3]).w;
+  });
   return !visible_.empty();
 }
 
@@ -160,7 +215,8 @@ void HullPass::FindWater(const SeaTextures& sea, const PatchTextures& patches) {
   std::vector<glm::vec4> points;
   for (const Visible& hull : visible_) {
     const glm::vec4& place = hull.world_from_body[3];
-    points.emplace_back(place.x, place.y, std::max(0.25f, 0.4f * hull.mesh->radius_m),
+    points.emplace_back(place.x, place.y,
+                        std::max(0.25f, 0.2f * glm::distance(hull.mesh->low, hull.mesh->high)),
                         static_cast<float>(points.size()));
   }
   glBindFramebuffer(GL_FRAMEBUFFER, water_framebuffer_.id());
@@ -182,15 +238,15 @@ void HullPass::DrawMeshes(const ShaderProgram& program, const SkyPass& sky, int 
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   glDepthMask(GL_TRUE);
-  glClearColor(0, 0, 0, 0);
-  glClearDepth(1.0);
-  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  glEnable(GL_CULL_FACE);
   BindTexture(unit, GL_TEXTURE_2D, water_map_);
   program.SetSampler("water_map", unit);
   BindTexture(unit + 1, GL_TEXTURE_3D, sky.map());
   program.SetSampler("sky_map", unit + 1);
   BindTexture(unit + 2, GL_TEXTURE_2D, sky.haze());
   program.SetSampler("haze_map", unit + 2);
+  BindTexture(unit + 3, GL_TEXTURE_2D, sky.clouds());
+  program.SetSampler("stain_map", unit + 3);
   const GLint matrix = program.Uniform("world_from_body"), colour = program.Uniform("colour");
   const GLint index = program.Uniform("hull");
   for (std::size_t n = 0; n < visible_.size(); ++n) {
@@ -201,6 +257,7 @@ void HullPass::DrawMeshes(const ShaderProgram& program, const SkyPass& sky, int 
     glBindVertexArray(hull.mesh->vertices.id());
     glDrawArrays(GL_TRIANGLES, 0, hull.mesh->count);
   }
+  glDisable(GL_CULL_FACE);
   glDisable(GL_DEPTH_TEST);
 }
 
@@ -224,19 +281,28 @@ HullMirror HullPass::DrawMirror(int width, int height, const SeaTextures& sea,
     ONESEA_CHECK(glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE);
   }
   mirror_picture_.Bind();
+  Clear();
   mirror_.Use();
+  glFrontFace(GL_CW);  // as mirrors have it
   DrawMeshes(mirror_, sky, 0);
+  glFrontFace(GL_CCW);
   return {&mirror_picture_.texture, &mirror_distance_, mirror_box_};
 }
 
 void HullPass::Draw(const VertexArray& empty, const ColorTarget& scene,
                     const SurfaceGridPass& geometry, const SkyPass& sky) {
-  if (box_.empty()) return;
+  if (boxes_.empty()) return;
   Resize(scene.width, scene.height);
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
   glViewport(0, 0, width_, height_);
   glEnable(GL_SCISSOR_TEST);
-  box_.Scissor();
+  PixelBox around = boxes_.front();
+  for (const PixelBox& box : boxes_) {
+    around = Union(around, box);
+    box.Scissor();
+    Clear();
+  }
+  around.Scissor();
   const bool one = geometry.target() == GL_TEXTURE_2D;
   const ShaderProgram& program = one ? one_ : four_;
   program.Use();
@@ -251,7 +317,10 @@ void HullPass::Draw(const VertexArray& empty, const ColorTarget& scene,
   glEnable(GL_BLEND);
   glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   glBindVertexArray(empty.id());
-  glDrawArrays(GL_TRIANGLES, 0, 3);
+  for (const PixelBox& box : boxes_) {
+    box.Scissor();
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+  }
   glDisable(GL_BLEND);
   glDisable(GL_SCISSOR_TEST);
 }

@@ -42,7 +42,7 @@ class HullPass {
     VertexArray vertices;
     Buffer corners;
     GLsizei count = 0;
-    float radius_m = 0.0f;
+    glm::vec3 low{0.0f}, high{0.0f};  // bounds in the body frame [m]
   };
   struct Visible {
     const Mesh* mesh;
@@ -60,7 +60,8 @@ class HullPass {
   ShaderProgram one_, four_, mirror_, water_, place_;
   std::map<const HullMesh*, Mesh> meshes_;
   std::vector<Visible> visible_;
-  PixelBox box_, mirror_box_;
+  std::vector<PixelBox> boxes_;  // disjoint, around all that is in view
+  PixelBox mirror_box_;
   Texture picture_, water_map_, mirror_distance_;
   Renderbuffer depth_, mirror_depth_;
   Framebuffer framebuffer_, water_framebuffer_;

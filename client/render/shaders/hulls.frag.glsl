@@ -5,6 +5,7 @@ uniform sampler2DMS surface_map;
 #else
 uniform sampler2D depth_map;
 #endif
+uniform sampler2D stain_map;
 in vec3 offset_eye;
 in vec3 facing;
 in vec3 paint;
@@ -39,17 +40,6 @@ float before_sea(float distance) {
 #endif
 }
 
-// Value noise, 0..1.
-float noise(vec3 at) {
-  vec3 cell = floor(at), f = at - cell;
-  f = f * f * (3.0 - 2.0 * f);
-  vec4 h = vec4(0.0, 57.0, 113.0, 170.0) + dot(cell, vec3(1.0, 57.0, 113.0));
-  vec4 low = fract(sin(h) * 43758.5453), high = fract(sin(h + 1.0) * 43758.5453);
-  vec4 x = mix(low, high, f.x);
-  vec2 y = mix(x.xz, x.yw, f.y);
-  return mix(y.x, y.y, f.z);
-}
-
 void main() {
   float distance = length(offset_eye);
 #if MIRROR
@@ -66,7 +56,8 @@ void main() {
   // The last hand's breadth above the water is wet, and darker for it.
   float above = gloss_above.y;
   // Nothing afloat is evenly clean: salt, scuffs, and streaks that ran down.
-  float patchy = noise(body * 2.3), fine = noise(body * vec3(19.0, 19.0, 4.0));
+  vec2 skin = vec2(body.x + 0.7 * body.y, body.z + 0.3 * body.y);
+  float patchy = texture(stain_map, 0.11 * skin).r, fine = texture(stain_map, vec2(0.9, 0.23) * skin).r;
   float wet = 1.0 - smoothstep(0.02, 0.10 + 0.14 * patchy, above);
   vec3 albedo = paint * (0.80 + 0.22 * patchy + 0.12 * fine) * mix(1.0, 0.55, wet);
   float gloss = mix(gloss_above.x, 0.85, 0.7 * wet);
