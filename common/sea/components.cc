@@ -31,6 +31,7 @@ struct Band {
 
 std::vector<Band> SortedBands(const std::vector<Cascade>& cascades) {
   std::vector<Band> bands;
+  bands.reserve(cascades.size());
   for (const Cascade& c : cascades) {
     bands.push_back({c.wavenumber_min_rad_per_m, c.wavenumber_max_rad_per_m});
   }
@@ -209,6 +210,7 @@ absl::StatusOr<std::shared_ptr<const Components>> BuildComponents(const Recipe& 
   }
   for (const WeatherEntry& entry : recipe.timeline) {
     std::vector<std::vector<double>> variance;
+    variance.reserve(waves.size());
     for (const auto& list : waves) variance.emplace_back(list.size(), 0.0);
     Rest rest;
     AddEntry(recipe, entry.sea, lattices, waves, variance, rest);

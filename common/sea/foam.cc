@@ -50,7 +50,7 @@ std::array<std::uint32_t, kInstants> DecayWeights() {
   const double last = real::Exp(-kFoamMemoryS / kDecayS);
   for (int age = 0; age < kInstants; ++age) {
     const double decay = real::Exp(-age / (kDecayS * kFoamRateHz));
-    weights[age] = static_cast<std::uint32_t>(65536.0 * (decay - last) / (1.0 - last) + 0.5);
+    weights[age] = static_cast<std::uint32_t>(std::lround(65536.0 * (decay - last) / (1.0 - last)));
   }
   return weights;
 }

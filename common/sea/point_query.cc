@@ -73,6 +73,7 @@ constexpr double kCurvatureSigmas = 4.0;
 // acquire what the last reader's released.
 bool IsOnlyOwner(const std::shared_ptr<const SeaSnapshot>& held) {
   if (held.use_count() != 1) return false;
+  // NOLINTNEXTLINE(performance-unnecessary-copy-initialization): the copy is what orders
   const std::shared_ptr<const SeaSnapshot> in_order = held;
   return true;
 }
@@ -190,8 +191,11 @@ SnapshotBuilder::SnapshotBuilder(std::shared_ptr<const Components> components,
 
 SnapshotBuilder::~SnapshotBuilder() = default;
 
-std::shared_ptr<const SeaSnapshot> SnapshotBuilder::At(SimTime time, QueryDetail detail,
-                                                       std::shared_ptr<const SeaSnapshot> recycle) {
+// By value, so that the caller can give away the only owner.
+std::shared_ptr<const SeaSnapshot> SnapshotBuilder::At(
+    SimTime time, QueryDetail detail,
+    // NOLINTNEXTLINE(performance-unnecessary-value-param)
+    std::shared_ptr<const SeaSnapshot> recycle) {
   const Components& components = *impl_->components;
   const bool with_velocity = detail == QueryDetail::kVelocity;
   std::vector<Impl::Stage>& stages = impl_->stages[with_velocity ? 1 : 0];

@@ -14,7 +14,8 @@ namespace {
 
 // Eight samples per shortest wave on the query grid.
 double WavenumberLimit(const Cascade& cascade) {
-  return 2.0 * kPi / cascade.length_m * (cascade.query_grid_size / 8);
+  const int index_max = cascade.query_grid_size / 8;
+  return 2.0 * kPi / cascade.length_m * index_max;
 }
 
 bool IsGridSize(int n) { return n >= kGridSizeMin && n <= kGridSizeMax && (n & (n - 1)) == 0; }
