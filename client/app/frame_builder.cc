@@ -51,6 +51,31 @@ void FrameBuilder::FillWeather(render::RenderFrame& frame) const {
   }
 }
 
+void FrameBuilder::SetInteraction(std::shared_ptr<const sea::InteractionSnapshot> interaction) {
+  std::vector<std::uint64_t> versions;
+  if (interaction != nullptr) {
+    for (const auto& field : interaction->fields) {
+      std::uint64_t version = 0;
+      for (std::size_t n = 0; n < versions_.size(); ++n) {
+        if (interaction_->fields[n] == field) version = versions_[n];
+      }
+      versions.push_back(version != 0 ? version : ++last_version_);
+    }
+  }
+  interaction_ = std::move(interaction);
+  versions_ = std::move(versions);
+}
+
+void FrameBuilder::FillPatches(render::RenderFrame& frame) const {
+  frame.patches.clear();
+  for (std::size_t n = 0; n < versions_.size(); ++n) {
+    const sea::InteractionField& field = *interaction_->fields[n];
+    const sea::CellRect& cells = field.cells;
+    frame.patches.push_back({cells.PlaceOf(cells.west, cells.south), cells.cell_m, cells.columns,
+                             cells.rows, versions_[n], field.height_m, field.foam});
+  }
+}
+
 void FrameBuilder::Fill(const std::shared_ptr<const sea::Components>& components, SimTime time,
                         render::RenderFrame& frame) {
   Adopt(components);
@@ -67,6 +92,7 @@ void FrameBuilder::Fill(const std::shared_ptr<const sea::Components>& components
   frame.seed = components->recipe.seed;
   frame.choppiness = components->recipe.choppiness;
   FillWeather(frame);
+  FillPatches(frame);
 }
 
 double FrameBuilder::HeightAt(Vec2d place) {
@@ -74,7 +100,8 @@ double FrameBuilder::HeightAt(Vec2d place) {
   if (snapshot_ == nullptr) snapshot_ = snapshots_->At(time_, sea::QueryDetail::kHeight);
   sea::SurfaceSample sample;
   snapshot_->Sample({&place, 1}, {&sample, 1});
-  return sample.height_m;
+  if (interaction_ == nullptr) return sample.height_m;
+  return sample.height_m + sea::SampleInteraction(*interaction_, place).height_m;
 }
 
 SeaFigures FrameBuilder::Figures() const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -7,6 +8,7 @@
 #include "client/render/render_frame.h"
 #include "common/sea/components.h"
 #include "common/sea/foam.h"
+#include "common/sea/interaction_field.h"
 #include "common/sea/point_query.h"
 #include "common/sea/surface.h"
 
@@ -35,6 +37,10 @@ class FrameBuilder {
   void Fill(const std::shared_ptr<const sea::Components>& components, SimTime time,
             render::RenderFrame& frame);
 
+  /// From the next Fill() on, adds these wakes and splashes (null: none) to the picture and to
+  /// HeightAt(). A field that the last snapshot held too is not uploaded anew.
+  void SetInteraction(std::shared_ptr<const sea::InteractionSnapshot> interaction);
+
   /// Height of the sea at a place at the time of the last Fill().
   double HeightAt(Vec2d place);
 
@@ -43,6 +49,7 @@ class FrameBuilder {
  private:
   void Adopt(const std::shared_ptr<const sea::Components>& components);
   void FillWeather(render::RenderFrame& frame) const;
+  void FillPatches(render::RenderFrame& frame) const;
 
   int grid_size_;
   SimTime time_;
@@ -52,6 +59,9 @@ class FrameBuilder {
   std::unique_ptr<sea::FoamWindow> foam_;
   std::unique_ptr<sea::SnapshotBuilder> snapshots_;
   std::shared_ptr<const sea::SeaSnapshot> snapshot_;
+  std::shared_ptr<const sea::InteractionSnapshot> interaction_;
+  std::vector<std::uint64_t> versions_;  // of each field of interaction_
+  std::uint64_t last_version_ = 0;
 };
 
 }  // namespace onesea::client

@@ -53,5 +53,41 @@ TEST(FrameBuilder, RegularWaveHasItsPhase) {
   }
 }
 
+// Wakes come with their place, add to the height, and keep their version while they do not change.
+TEST(FrameBuilder, WakesAddToThePictureAndToTheHeight) {
+  sea::InteractionField field;
+  field.cells = {-4, 10, 12, 8, 0.5};
+  field.height_m.assign(field.cells.cells(), 0.25f);
+  const auto still = std::make_shared<const sea::InteractionField>(field);
+  const auto snapshot = std::make_shared<const sea::InteractionSnapshot>(
+      sea::InteractionSnapshot{1, {still, std::make_shared<const sea::InteractionField>(field)}});
+  const auto components = Build({});
+  FrameBuilder builder(64);
+  render::RenderFrame frame;
+  const Vec2d place{0.5, 7.0};
+  builder.Fill(components, SimTime::FromSeconds(3.0), frame);
+  EXPECT_TRUE(frame.patches.empty());
+  const double calm = builder.HeightAt(place);
+  builder.SetInteraction(snapshot);
+  builder.Fill(components, SimTime::FromSeconds(3.0), frame);
+  ASSERT_EQ(frame.patches.size(), 2U);
+  EXPECT_EQ(frame.patches[0].first_cell_m, (Vec2d{-2.0, 5.0}));
+  EXPECT_EQ(frame.patches[0].columns, 12);
+  EXPECT_EQ(frame.patches[0].height_m.data(), still->height_m.data());
+  EXPECT_NEAR(builder.HeightAt(place), calm + 0.5, 1e-6);
+
+  const std::uint64_t before = frame.patches[0].version, other = frame.patches[1].version;
+  EXPECT_NE(before, other);
+  builder.SetInteraction(std::make_shared<const sea::InteractionSnapshot>(
+      sea::InteractionSnapshot{2, {std::make_shared<const sea::InteractionField>(field), still}}));
+  builder.Fill(components, SimTime::FromSeconds(3.1), frame);
+  EXPECT_EQ(frame.patches[1].version, before);
+  EXPECT_NE(frame.patches[0].version, before);
+  EXPECT_NE(frame.patches[0].version, other);
+  builder.SetInteraction(nullptr);
+  builder.Fill(components, SimTime::FromSeconds(3.2), frame);
+  EXPECT_TRUE(frame.patches.empty());
+}
+
 }  // namespace
 }  // namespace onesea::client
