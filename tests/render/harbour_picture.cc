@@ -28,13 +28,12 @@ int Main(const char* path, int width, int height, int samples, int view) {
   frame.weather = {5.0, 2.6, 30'000.0, 0.25};
   frame.water = WaterType::kII;
   frame.sun = {2.0, 0.75};
-  const Camera cameras[] = {{{0, 0, 3.2}, 0.16, -0.08, 0.0, 0.8},
-                            {{8, -14, 9}, 0.85, -0.3, 0.0, 0.8},
-                            {{11, -6.5, 1.6}, 0.45, -0.06, 0.0, 0.9},
-                            {{5.5, -1.2, 1.3}, 0.35, -0.15, 0.05, 0.9},
-                            {{-45, -10, 14}, 0.2, -0.12, 0.0, 0.5}};
-  frame.camera = cameras[view % 5];
-  if (view >= 5) frame.sun = {0.5, 0.12};
+  const Camera cameras[] = {
+      {{0, 0, 3.2}, 0.16, -0.08, 0.0, 0.8},     {{8, -14, 9}, 0.85, -0.3, 0.0, 0.8},
+      {{11, -6.5, 1.6}, 0.45, -0.06, 0.0, 0.9}, {{5.5, -1.2, 1.3}, 0.35, -0.15, 0.05, 0.9},
+      {{-45, -10, 14}, 0.2, -0.12, 0.0, 0.5},   {{9, -5, -2.5}, 0.35, 0.18, 0.0, 0.9}};
+  frame.camera = cameras[view % 6];
+  if (view >= 6) frame.sun = {0.5, 0.12};
   ColorTarget target;
   target.Resize(width, height, GL_RGBA8);
   (*renderer)->Draw(frame, width, height, target.framebuffer.id());
