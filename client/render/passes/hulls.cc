@@ -63,10 +63,10 @@ void AddDisjoint(PixelBox box, std::vector<PixelBox>& boxes) {
   boxes.push_back(box);
 }
 
-// Pixels that points may cover: all of them if one is not before the eye, none if they are too
-// close together to be seen.
-PixelBox PictureOf(std::span<const glm::vec3> points, const FrameBlock& block, int width,
-                   int height) {
+// Pixels that points may cover: all of them if one is not before the eye, none if that would be
+// less than `least` either way.
+PixelBox PictureOf(std::span<const glm::vec3> points, float least, const FrameBlock& block,
+                   int width, int height) {
   glm::vec2 low(1e9f), high(-1e9f);
   int behind = 0;
   for (const glm::vec3& point : points) {
@@ -82,7 +82,7 @@ PixelBox PictureOf(std::span<const glm::vec3> points, const FrameBlock& block, i
   }
   if (behind == static_cast<int>(points.size())) return {};
   if (behind > 0) return {0, 0, width, height};
-  if (std::max(high.x - low.x, high.y - low.y) < 0.3f) return {};
+  if (std::max(high.x - low.x, high.y - low.y) < least) return {};
   const auto pixel = [](float at, int most) {
     return static_cast<int>(std::clamp(at, 0.0f, static_cast<float>(most)));
   };
@@ -181,12 +181,13 @@ bool HullPass::Prepare(const RenderFrame& frame, const FrameBlock& block, int wi
       const glm::vec3 wide = middle + 1.3f * (corners[n % 8] - middle);
       image[n] = glm::vec3(wide.x, wide.y, n < 8 ? middle.z : middle.z - 1.2f * tall);
     }
-    const PixelBox box = PictureOf(corners, block, width, height);
-    const PixelBox mirror = PictureOf(image, block, width, height);
+    const PixelBox box = PictureOf(corners, 0.3f, block, width, height);
+    // Small images are lost among the waves.
+    const PixelBox mirror = PictureOf(image, 8.0f, block, width, height);
     if (box.empty() && mirror.empty()) continue;
     if (!box.empty()) AddDisjoint(box, boxes_);
     if (!mirror.empty()) mirror_box_ = Union(mirror_box_, mirror);
-    visible_.push_back({&mesh, placement, hull.colour});
+    visible_.push_back({&mesh, placement, hull.colour, !box.empty(), !mirror.empty()});
   }
   // Near ones first: what they hide fails the depth test before it is shaded.
   std::sort(visible_.begin(), visible_.end(), [&](const Visible& a, const Visible& b) {
@@ -234,7 +235,7 @@ void HullPass::FindWater(const SeaTextures& sea, const PatchTextures& patches) {
 }
 
 // `program` is in use; texture units from `unit` on are free.
-void HullPass::DrawMeshes(const ShaderProgram& program, const SkyPass& sky, int unit) {
+void HullPass::DrawMeshes(const ShaderProgram& program, bool image, const SkyPass& sky, int unit) {
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   glDepthMask(GL_TRUE);
@@ -251,6 +252,7 @@ void HullPass::DrawMeshes(const ShaderProgram& program, const SkyPass& sky, int 
   const GLint index = program.Uniform("hull");
   for (std::size_t n = 0; n < visible_.size(); ++n) {
     const Visible& hull = visible_[n];
+    if (!(image ? hull.has_image : hull.in_view)) continue;
     glUniform1i(index, static_cast<GLint>(n));
     glUniformMatrix4fv(matrix, 1, GL_FALSE, glm::value_ptr(hull.world_from_body));
     glUniform3fv(colour, 1, hull.colour.data());
@@ -284,7 +286,7 @@ HullMirror HullPass::DrawMirror(int width, int height, const SeaTextures& sea,
   Clear();
   mirror_.Use();
   glFrontFace(GL_CW);  // as mirrors have it
-  DrawMeshes(mirror_, sky, 0);
+  DrawMeshes(mirror_, true, sky, 0);
   glFrontFace(GL_CCW);
   return {&mirror_picture_.texture, &mirror_distance_, mirror_box_};
 }
@@ -308,7 +310,7 @@ void HullPass::Draw(const VertexArray& empty, const ColorTarget& scene,
   program.Use();
   BindTexture(0, geometry.target(), one ? geometry.depth() : geometry.surface());
   program.SetSampler(one ? "depth_map" : "surface_map", 0);
-  DrawMeshes(program, sky, 1);
+  DrawMeshes(program, false, sky, 1);
 
   scene.Bind();
   place_.Use();

@@ -48,13 +48,14 @@ class HullPass {
     const Mesh* mesh;
     glm::mat4 world_from_body;
     std::array<float, 3> colour;
+    bool in_view, has_image;
   };
   explicit HullPass(std::array<ShaderProgram, 5> programs);
   const Mesh& MeshFor(const std::shared_ptr<const HullMesh>& source);
   void Forget();
   void Resize(int width, int height);
   void FindWater(const SeaTextures& sea, const PatchTextures& patches);
-  void DrawMeshes(const ShaderProgram& program, const SkyPass& sky, int unit);
+  void DrawMeshes(const ShaderProgram& program, bool image, const SkyPass& sky, int unit);
 
   // Sea of one sample a pixel, of four; mirror image; water under hulls; picture over the scene.
   ShaderProgram one_, four_, mirror_, water_, place_;
