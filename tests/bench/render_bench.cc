@@ -8,6 +8,7 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <vector>
@@ -24,6 +25,7 @@
 
 ABSL_FLAG(int, frames, 12, "Pictures per size; the first is left out");
 ABSL_FLAG(bool, harbour, false, "With two wakes, new in each picture, and eight bodies");
+ABSL_FLAG(int, bodies, 0, "With --harbour: as many more bodies, 20 to 300 m away");
 ABSL_FLAG(int, samples, 0, "Samples of the geometry: 1, 4 or 0, as the driver can afford");
 
 namespace onesea::render {
@@ -98,6 +100,14 @@ int Main(int frames) {
   if (absl::GetFlag(FLAGS_harbour)) {
     sea.FillFrame(5.0, frame);
     FillHarbour(sea, wakes, frame);
+    for (int n = 0; n < absl::GetFlag(FLAGS_bodies); ++n) {
+      HullInstance body = frame.hulls[static_cast<std::size_t>(n % 8)];
+      const double range = 20.0 + 280.0 * (n * 0.618 - std::floor(n * 0.618));
+      const double bearing = 0.35 * std::sin(n * 1.7);
+      body.position_m.x = range * std::cos(bearing);
+      body.position_m.y = range * std::sin(bearing);
+      frame.hulls.push_back(body);
+    }
   }
   for (const auto& [width, height] : {std::pair{640, 360}, std::pair{1280, 720}}) {
     Measure(**renderer, frame, sea, width, height, frames);
