@@ -79,6 +79,7 @@ void BodyWater::FillOne(const IncidentSea& sea, std::span<const float> interacti
     to[1] = to[2] = to[3] = 0.0f;
     place.incident.height_m[n] = static_cast<float>(height_m);
   }
+  patch.FindHighest();
 }
 
 }  // namespace onesea::world

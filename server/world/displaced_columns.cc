@@ -29,9 +29,10 @@ constexpr double kPieceCells = 0.7;
 
 class Spreader {
  public:
-  Spreader(const sea::CellRect& cells, std::span<float> head_m)
+  Spreader(const sea::CellRect& cells, std::span<float> head_m, double share)
       : cells_(cells),
         head_m_(head_m),
+        share_(share),
         cells_per_m_(1.0 / cells.cell_m),
         west_m_(cells.PlaceOf(cells.west, cells.south).x),
         south_m_(cells.PlaceOf(cells.west, cells.south).y) {}
@@ -65,7 +66,7 @@ class Spreader {
     }
     const int i = static_cast<int>(column + 0.5), j = static_cast<int>(row + 0.5);
     const std::array<double, 3> u = Weights(column - i), v = Weights(row - j);
-    const double head = volume_m3 * cells_per_m_ * cells_per_m_;
+    const double head = share_ * volume_m3 * cells_per_m_ * cells_per_m_;
     for (int dj = 0; dj < 3; ++dj) {
       float* at = &head_m_[static_cast<std::size_t>(j + dj - 1) * cells_.columns + (i - 1)];
       for (int di = 0; di < 3; ++di) at[di] += static_cast<float>(v[dj] * u[di] * head);
@@ -79,7 +80,7 @@ class Spreader {
 
   const sea::CellRect& cells_;
   std::span<float> head_m_;
-  double cells_per_m_, west_m_, south_m_;
+  double share_, cells_per_m_, west_m_, south_m_;
 };
 
 // The wetted part of a triangle, at most two pieces.
@@ -114,7 +115,7 @@ double HeightPatch::At(double x, double y) const {
 
 void AddDisplacedColumns(const TriangleMesh& mesh, Vec3d centre_of_mass_m, const Pose& pose,
                          const HeightPatch& surface, const sea::CellRect& cells,
-                         std::span<float> head_m) {
+                         std::span<float> head_m, double share) {
   ONESEA_CHECK(head_m.size() == cells.cells() && cells.columns >= 2 && cells.rows >= 2);
   const Mat3d turn = ToMatrix(pose.turn);
   std::vector<Corner> corners;
@@ -123,7 +124,7 @@ void AddDisplacedColumns(const TriangleMesh& mesh, Vec3d centre_of_mass_m, const
     const Vec3d place = pose.centre_m + turn * (vertex - centre_of_mass_m);
     corners.push_back({place.x, place.y, surface.At(place.x, place.y) - place.z});
   }
-  Spreader spreader(cells, head_m);
+  Spreader spreader(cells, head_m, share);
   for (const auto& [a, b, c] : mesh.triangles) {
     AddTriangle({corners[a], corners[b], corners[c]}, spreader);
   }

@@ -28,9 +28,9 @@ struct HeightPatch {
 ///
 /// Each wetted piece of a face is a column of water up to the surface, counted down for faces that
 /// look up, and spread over the nine cells around its middle; pieces longer than most of a cell are
-/// split.
+/// split. `share` scales all of it.
 void AddDisplacedColumns(const TriangleMesh& mesh, Vec3d centre_of_mass_m, const Pose& pose,
                          const HeightPatch& surface, const sea::CellRect& cells,
-                         std::span<float> head_m);
+                         std::span<float> head_m, double share = 1.0);
 
 }  // namespace onesea::world

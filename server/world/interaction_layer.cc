@@ -184,11 +184,17 @@ InteractionLayer::Grid* InteractionLayer::BestAt(Vec2d place) {
   return best;
 }
 
-const RegionForcing* InteractionLayer::ForcingAt(Vec2d place) {
+RegionForcing* InteractionLayer::ForcingAt(Vec2d place) {
   Grid* grid = BestAt(place);
   if (grid == nullptr) return nullptr;
   grid->forced = true;
   return &grid->forcing;
+}
+
+void InteractionLayer::ForEachForcing(const std::function<bool(RegionForcing&)>& fill) {
+  for (const auto& grid : grids_) {
+    if (fill(grid->forcing)) grid->forced = true;
+  }
 }
 
 bool InteractionLayer::AddSource(Vec2d place, double radius_m, double volume_m3) {

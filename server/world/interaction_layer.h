@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -70,7 +71,10 @@ class InteractionLayer {
 
   /// The forcing of the region in which this place lies furthest from the border, or null. Valid
   /// until the next Place.
-  const RegionForcing* ForcingAt(Vec2d place);
+  RegionForcing* ForcingAt(Vec2d place);
+
+  /// Calls `fill` with each region's forcing; true says that it put something there.
+  void ForEachForcing(const std::function<bool(RegionForcing&)>& fill);
 
   /// Adds water [m³] over a disc as (1 - r²/R²)², R at least 1.5 cells; what is added is
   /// `volume_m3` exactly but for rounding. False: no region there.

@@ -1,0 +1,216 @@
+// What commands do to the world.
+
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "common/base/check.h"
+#include "common/base/limits.h"
+#include "common/sea/constants.h"
+#include "server/world/body_from_wire.h"
+#include "server/world/world.h"
+
+namespace onesea::world {
+namespace {
+
+absl::Status NoBody(std::uint32_t id) {
+  return absl::NotFoundError(absl::StrCat("body_id: there is no body ", id));
+}
+
+// A dome of water with a trough around it, as much below the level as above. Its potential energy
+// is that share of the explosion's which goes into waves: about a twentieth near the surface, less
+// the deeper it lies.
+struct Dome {
+  double radius_m, volume_m3;
+};
+Dome DomeOf(double energy_j, double depth_m) {
+  constexpr double kWaveShare = 0.05;
+  // Of height R/4 in its middle, as (1 - r²/R²)²: energy rho g pi R⁴/160.
+  const double rho_g = sea::kWaterDensityKgPerM3 * sea::kGravity;
+  const auto radius_of = [&](double wave_energy_j) {
+    return std::sqrt(std::sqrt(160.0 * wave_energy_j / (rho_g * std::numbers::pi)));
+  };
+  const double at_surface_m = radius_of(kWaveShare * energy_j);
+  const double fade = std::exp(-depth_m / at_surface_m);
+  const double radius_m = radius_of(kWaveShare * energy_j * fade);
+  return {radius_m, std::numbers::pi / 3.0 * radius_m * radius_m * 0.25 * radius_m};
+}
+
+}  // namespace
+
+absl::StatusOr<PreparedBody> PrepareBody(wire::BodyDescription description) {
+  ONESEA_ASSIGN_OR_RETURN(BodySpec spec, FromWire(description));
+  PreparedBody body;
+  ONESEA_ASSIGN_OR_RETURN(body.model, MakeBodyModel(std::move(spec)));
+  body.info = InfoOf(description, *body.model);
+  if (!description.shape.mesh.empty()) {
+    body.mesh = std::make_shared<const std::string>(std::move(description.shape.mesh));
+  }
+  return body;
+}
+
+absl::Status World::Begin(const wire::WorldSpec& spec) {
+  levels_ = spec.water_level;
+  wind_m_per_s_ = spec.body_wind_m_per_s;
+  for (const wire::StartBody& start : spec.bodies) {
+    ONESEA_ASSIGN_OR_RETURN(const PreparedBody body, PrepareBody(start.body));
+    ONESEA_RETURN_IF_ERROR(Spawn(body, start.start).status());
+  }
+  for (const wire::RegionSpec& region : spec.regions) {
+    ONESEA_RETURN_IF_ERROR(Do(wire::AddRegion{region}).status());
+  }
+  return absl::OkStatus();
+}
+
+absl::StatusOr<std::uint32_t> World::Spawn(const PreparedBody& prepared,
+                                           const wire::Kinematics& start) {
+  BodyState state = FromWire(start);
+  // A start at z = 0 means afloat.
+  if (state.pose.centre_m.z == 0.0) {
+    state.pose.centre_m.z =
+        LevelAt(TimeOfTick(tick_, options_.tick_rate_hz)) +
+        (prepared.model->rest.floats ? prepared.model->rest.centre_height_m : 0.0);
+  }
+  ONESEA_ASSIGN_OR_RETURN(const BodyId id, rigid_.Add(prepared.model, state));
+  const auto wire_id = static_cast<std::uint32_t>(id);
+  Body& body = bodies_[wire_id];
+  body.model = prepared.model;
+  body.mesh = prepared.mesh;
+  wire::BodyInfo info = prepared.info;
+  info.id = wire_id;
+  body.info = std::make_shared<const wire::BodyInfo>(std::move(info));
+  Publish();
+  return wire_id;
+}
+
+absl::StatusOr<std::uint32_t> World::Apply(const wire::WorldCommand& command) {
+  absl::StatusOr<std::uint32_t> id = std::visit(
+      [this](const auto& one) -> absl::StatusOr<std::uint32_t> {
+        using Command = std::decay_t<decltype(one)>;
+        if constexpr (std::is_same_v<Command, wire::SpawnBody>) {
+          ONESEA_ASSIGN_OR_RETURN(const PreparedBody body, PrepareBody(one.body));
+          return Spawn(body, one.start);
+        } else if constexpr (std::is_same_v<Command, wire::TakeLease> ||
+                             std::is_same_v<Command, wire::ReleaseLease>) {
+          if (!HasBody(one.body_id)) return NoBody(one.body_id);
+          return one.body_id;
+        } else {
+          return Do(one);
+        }
+      },
+      command);
+  if (id.ok()) Publish();
+  return id;
+}
+
+absl::StatusOr<std::uint32_t> World::Do(const wire::RemoveBody& command) {
+  if (!HasBody(command.body_id)) return NoBody(command.body_id);
+  ONESEA_RETURN_IF_ERROR(rigid_.Remove(command.body_id));
+  bodies_.erase(command.body_id);
+  for (auto& [id, region] : regions_) {
+    if (region.follow_body_id == command.body_id) region.follow_body_id = 0;
+  }
+  return command.body_id;
+}
+
+absl::StatusOr<std::uint32_t> World::Do(const wire::DriveBody& command) {
+  if (!HasBody(command.body_id)) return NoBody(command.body_id);
+  const BodySpec& spec = bodies_[command.body_id].model->spec;
+  if (command.throttle.size() > spec.thrusters.size()) {
+    return absl::InvalidArgumentError(absl::StrCat("throttle: ", command.throttle.size(),
+                                                   " values, but body ", command.body_id, " has ",
+                                                   spec.thrusters.size(), " thrusters"));
+  }
+  DriveCommand drive;
+  for (std::size_t n = 0; n < command.throttle.size(); ++n) drive.throttle[n] = command.throttle[n];
+  for (std::size_t n = 0; n < std::min(command.rudder.size(), drive.rudder.size()); ++n) {
+    drive.rudder[n] = command.rudder[n];
+  }
+  ONESEA_RETURN_IF_ERROR(rigid_.SetDrive(command.body_id, drive));
+  return command.body_id;
+}
+
+absl::StatusOr<std::uint32_t> World::Do(const wire::ApplyImpulse& command) {
+  const BodyState* state = rigid_.FindState(command.body_id);
+  if (state == nullptr) return NoBody(command.body_id);
+  const Vec3d place_m = command.position_m.value_or(state->pose.centre_m);
+  ONESEA_RETURN_IF_ERROR(rigid_.ApplyImpulse(command.body_id, command.impulse_n_s, place_m));
+  return command.body_id;
+}
+
+absl::StatusOr<std::uint32_t> World::Do(const wire::Explode& command) {
+  const Vec2d place{command.position_m.x, command.position_m.y};
+  const Dome dome = DomeOf(command.energy_j, -command.position_m.z);
+  // The trough spreads over twice the radius and takes what the dome has.
+  if (!layer_.AddSource(place, dome.radius_m, dome.volume_m3) ||
+      !layer_.AddSource(place, 2.0 * dome.radius_m, -dome.volume_m3)) {
+    return absl::NotFoundError(absl::StrCat("position_m: no region of the interaction layer at ",
+                                            place.x, ", ", place.y, "; add one there first"));
+  }
+  layer_.AddFoam(place, 1.5 * dome.radius_m, 1.0);
+  return 0;
+}
+
+absl::StatusOr<std::uint32_t> World::Do(const wire::SetObstacle& command) {
+  std::uint32_t id = command.obstacle_id;
+  if (id != 0 && !obstacles_.Contains(id)) {
+    return absl::NotFoundError(absl::StrCat("obstacle_id: there is no obstacle ", id));
+  }
+  if (id == 0 && obstacles_.size() >= kObstaclesMax) {
+    return absl::ResourceExhaustedError(
+        absl::StrCat("the session has ", kObstaclesMax, " obstacles, the most there can be"));
+  }
+  if (id == 0) id = next_obstacle_id_++;
+  obstacles_.Set(id, command.corners_m);
+  return id;
+}
+
+absl::StatusOr<std::uint32_t> World::Do(const wire::RemoveObstacle& command) {
+  if (obstacles_.Remove(command.obstacle_id)) return command.obstacle_id;
+  return absl::NotFoundError(
+      absl::StrCat("obstacle_id: there is no obstacle ", command.obstacle_id));
+}
+
+absl::StatusOr<std::uint32_t> World::Do(const wire::AddRegion& command) {
+  if (regions_.size() >= kRegionsMax) {
+    return absl::ResourceExhaustedError(
+        absl::StrCat("the session has ", kRegionsMax, " regions, the most there can be"));
+  }
+  const std::uint32_t follows = command.region.follow_body_id;
+  if (follows != 0 && !HasBody(follows)) return NoBody(follows);
+  const std::uint32_t id = next_region_id_;
+  regions_[id] = command.region;
+  if (absl::Status placed = PlaceRegions(); !placed.ok()) {
+    regions_.erase(id);
+    PlaceRegions().IgnoreError();
+    return placed;
+  }
+  ++next_region_id_;
+  return id;
+}
+
+absl::StatusOr<std::uint32_t> World::Do(const wire::RemoveRegion& command) {
+  if (regions_.erase(command.region_id) == 0) {
+    return absl::NotFoundError(absl::StrCat("region_id: there is no region ", command.region_id));
+  }
+  PlaceRegions().IgnoreError();
+  return command.region_id;
+}
+
+absl::StatusOr<wire::BodyWrench> World::SetPose(const wire::BodyPose& pose) {
+  if (!HasBody(pose.body_id)) return NoBody(pose.body_id);
+  const BodyState state = FromWire(pose.state);
+  ONESEA_RETURN_IF_ERROR(
+      rigid_.SetMotion(pose.body_id, state.pose, state.velocity_m_per_s, state.spin_rad_per_s));
+  wire::BodyWrench wrench;
+  wrench.body_id = pose.body_id;
+  // Of the last step: the water of the present tick is sampled when the tick is made.
+  const BodyLoads& loads = *rigid_.FindLoads(pose.body_id);
+  const Mat3d turn = ToMatrix(state.pose.turn);
+  wrench.force_n = turn * (loads.wet.pressure_force_n + loads.wet.drag_force_n);
+  wrench.torque_n_m = turn * (loads.wet.pressure_torque_n_m + loads.wet.drag_torque_n_m);
+  return wrench;
+}
+
+}  // namespace onesea::world

@@ -1,0 +1,241 @@
+// The whole of a tick: bodies, their wakes, what commands do.
+#include "server/world/world.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <string>
+
+#include "tests/sea/fake_sea.h"
+
+namespace onesea::world {
+namespace {
+
+using ::testing::HasSubstr;
+
+std::shared_ptr<const sea::Components> Calm() {
+  return sea::FakeSea({.lengths_m = {97.0}, .index_max = 4, .hs_m = 1e-6, .query_grid_size = 64});
+}
+
+wire::BodyDescription Box(Vec3d size_m, double mass_kg) {
+  wire::BodyDescription body;
+  body.name = "box";
+  body.shape.kind = wire::ShapeKind::kBox;
+  body.shape.size_m = size_m;
+  body.mass_kg = mass_kg;
+  body.centre_of_mass_m = Vec3d{0, 0, -0.2 * size_m.z};
+  return body;
+}
+
+wire::BodyDescription Boat() {
+  wire::BodyDescription boat = Box({6.0, 2.0, 1.0}, 3000.0);
+  boat.drag = {.friction = 0.004, .pressure = 0.3, .suction = 0.2};
+  wire::Thruster thruster;
+  thruster.position_m = {-2.5, 0, -0.3};
+  thruster.diameter_m = 0.5;
+  thruster.steer_rad_max = 0.5;
+  boat.thrusters.push_back(thruster);
+  return boat;
+}
+
+wire::RegionSpec Square(int cells, std::uint32_t follow_body_id = 0) {
+  wire::RegionSpec region;
+  region.columns = region.rows = cells;
+  region.follow_body_id = follow_body_id;
+  return region;
+}
+
+wire::Kinematics AfloatAt(Vec2d place) {
+  wire::Kinematics start;
+  start.position_m = {place.x, place.y, 0.0};
+  return start;
+}
+
+class WorldTest : public ::testing::Test {
+ protected:
+  std::uint32_t Spawn(const wire::BodyDescription& body, Vec2d place = {}) {
+    const auto prepared = PrepareBody(body);
+    EXPECT_TRUE(prepared.ok()) << prepared.status();
+    const auto id = world_.Spawn(*prepared, AfloatAt(place));
+    EXPECT_TRUE(id.ok()) << id.status();
+    return *id;
+  }
+  void AddRegion(const wire::RegionSpec& spec) {
+    const auto id = world_.Apply(wire::AddRegion{spec});
+    ASSERT_TRUE(id.ok()) << id.status();
+  }
+  void Run(int ticks) {
+    for (int n = 0; n < ticks; ++n) world_.Step(++tick_, calm_);
+  }
+  const wire::BodyState& StateOf(std::uint32_t id) {
+    for (const wire::BodyView& body : world_.view()->bodies) {
+      if (body.state.id == id) return body.state;
+    }
+    ADD_FAILURE() << "no body " << id;
+    static const wire::BodyState none;
+    return none;
+  }
+  double HeightAt(Vec2d place) {
+    return sea::SampleInteraction(*world_.view()->interaction, place).height_m;
+  }
+
+  std::shared_ptr<const sea::Components> calm_ = Calm();
+  Tick tick_ = 0;
+  World world_{WorldOptions{}};
+};
+
+TEST_F(WorldTest, AnEmptyWorldStaysEmpty) {
+  Run(3);
+  EXPECT_TRUE(world_.view()->empty());
+}
+
+TEST_F(WorldTest, ABodyFloatsAtItsDraft) {
+  const std::uint32_t id = Spawn(Box({4, 2, 1}, 4100.0));
+  Run(600);
+  // Archimedes: 4.1 t on 8 m² of salt water draws half a metre, and the centre of mass lies 0.3 m
+  // above the bottom.
+  EXPECT_NEAR(StateOf(id).position_m.z, -0.5 + 0.3, 0.01);
+}
+
+TEST_F(WorldTest, StillWaterMakesRoomAndTheBodyDoesNotFeelIt) {
+  AddRegion(Square(128));
+  const std::uint32_t id = Spawn(Box({4, 2, 1}, 4100.0));
+  Run(1500);
+  EXPECT_NEAR(HeightAt({0, 0}), -0.5, 0.02);  // the surface lies under the hull
+  EXPECT_NEAR(HeightAt({12, 9}), 0.0, 0.005);
+  EXPECT_NEAR(StateOf(id).position_m.z, -0.2, 0.005);
+  EXPECT_NEAR(Norm(Vec2d{StateOf(id).position_m.x, StateOf(id).position_m.y}), 0.0, 0.05);
+}
+
+// Dropped from 0.3 m, it comes to rest by the waves that it makes and by friction alone.
+TEST_F(WorldTest, RadiationIntoTheGridTakesEnergy) {
+  AddRegion(Square(128));
+  wire::BodyDescription body = Box({4, 2, 1}, 4100.0);
+  body.radiation = wire::Radiation::kGrid;
+  const auto prepared = PrepareBody(body);
+  wire::Kinematics start;
+  start.position_m.z = 0.1;
+  const std::uint32_t id = *world_.Spawn(*prepared, start);
+  Run(900);
+  double largest = 0;
+  for (int n = 0; n < 300; ++n) {
+    Run(1);
+    largest = std::max(largest, std::abs(StateOf(id).position_m.z + 0.2));
+  }
+  EXPECT_LT(largest, 0.03);
+}
+
+TEST_F(WorldTest, ADrivenBoatLeavesAWakeThatRocksAnother) {
+  AddRegion(Square(256));
+  const std::uint32_t boat = Spawn(Boat(), {-40, 0});
+  const std::uint32_t buoy = Spawn(Box({1, 1, 1}, 500.0), {0, 8});
+  Run(300);
+  const double at_rest = StateOf(buoy).position_m.z;
+  ASSERT_TRUE(world_.Apply(wire::DriveBody{boat, {1.0}, {0.0}}).ok());
+  double highest = -1, lowest = 1, fastest = 0, wave = 0;
+  for (int n = 0; n < 1500; ++n) {
+    Run(1);
+    const double z = StateOf(buoy).position_m.z - at_rest;
+    highest = std::max(highest, z);
+    lowest = std::min(lowest, z);
+    fastest = std::max(fastest, StateOf(boat).velocity_m_per_s.x);
+    wave = std::max(wave, std::abs(HeightAt({-10, 7})));
+  }
+  EXPECT_GT(fastest, 2.0);
+  EXPECT_GT(wave, 0.01);
+  EXPECT_GT(highest - lowest, 0.01);  // what the other feels
+  EXPECT_LT(highest - lowest, 1.0);
+}
+
+TEST_F(WorldTest, ExplosionMakesARingAndMovesBodies) {
+  AddRegion(Square(256));
+  const std::uint32_t buoy = Spawn(Box({1, 1, 1}, 500.0), {15, 0});
+  Run(120);
+  const double at_rest = StateOf(buoy).position_m.z;
+  ASSERT_TRUE(world_.Apply(wire::Explode{{0, 0, -1}, 4.2e6}).ok());
+  double largest = 0;
+  for (int n = 0; n < 600; ++n) {
+    Run(1);
+    largest = std::max(largest, std::abs(StateOf(buoy).position_m.z - at_rest));
+  }
+  EXPECT_GT(largest, 0.05);
+  EXPECT_LT(largest, 5.0);
+}
+
+TEST_F(WorldTest, SameCommandsSameHash) {
+  const auto run = [this] {
+    World world{WorldOptions{}};
+    EXPECT_TRUE(world.Apply(wire::AddRegion{Square(64)}).ok());
+    const auto boat = PrepareBody(Boat());
+    const auto id = world.Spawn(*boat, {});
+    std::vector<std::uint64_t> hashes;
+    for (Tick tick = 1; tick <= 200; ++tick) {
+      if (tick == 50) {
+        EXPECT_TRUE(world.Apply(wire::DriveBody{*id, {0.8}, {0.3}}).ok());
+      }
+      world.Step(tick, calm_);
+      hashes.push_back(world.Hash());
+    }
+    return hashes;
+  };
+  const auto first = run();
+  EXPECT_EQ(first, run());
+  EXPECT_NE(first[100], first[101]);
+}
+
+TEST_F(WorldTest, RegionsFollowTheirBody) {
+  const std::uint32_t boat = Spawn(Boat());
+  AddRegion(Square(64, boat));
+  Run(10);
+  const sea::CellRect before = world_.view()->interaction->fields[0]->cells;
+  ASSERT_TRUE(world_.Apply(wire::DriveBody{boat, {1.0}, {0.0}}).ok());
+  Run(1200);
+  const sea::CellRect after = world_.view()->interaction->fields[0]->cells;
+  EXPECT_GT(after.west, before.west);
+  EXPECT_GT(StateOf(boat).position_m.x, 10.0);
+}
+
+TEST_F(WorldTest, ErrorsNameWhatIsMissing) {
+  const auto message = [this](const wire::WorldCommand& command) {
+    return std::string(world_.Apply(command).status().message());
+  };
+  EXPECT_THAT(message(wire::RemoveBody{9}), HasSubstr("no body 9"));
+  EXPECT_THAT(message(wire::DriveBody{9, {}, {}}), HasSubstr("no body 9"));
+  EXPECT_THAT(message(wire::RemoveRegion{4}), HasSubstr("no region 4"));
+  EXPECT_THAT(message(wire::RemoveObstacle{5}), HasSubstr("no obstacle 5"));
+  EXPECT_THAT(message(wire::SetObstacle{5, {{0, 0}, {1, 0}, {0, 1}}}), HasSubstr("no obstacle 5"));
+  EXPECT_THAT(message(wire::Explode{{0, 0, -1}, 1e6}), HasSubstr("no region"));
+  const std::uint32_t box = Spawn(Box({1, 1, 1}, 500.0));
+  EXPECT_THAT(message(wire::DriveBody{box, {1.0}, {}}), HasSubstr("has 0 thrusters"));
+  EXPECT_FALSE(PrepareBody(Box({1, 1, 1}, 0.0)).ok());
+}
+
+TEST_F(WorldTest, ObstaclesStandStill) {
+  AddRegion(Square(64));
+  ASSERT_TRUE(world_.Apply(wire::SetObstacle{0, {{4, -10}, {6, -10}, {6, 10}, {4, 10}}}).ok());
+  Run(5);
+  ASSERT_TRUE(world_.Apply(wire::Explode{{-3, 0, -1}, 1e5}).ok());
+  double before = 0, behind = 0;
+  for (int n = 0; n < 240; ++n) {
+    Run(1);
+    before = std::max(before, std::abs(HeightAt({1, 0})));
+    behind = std::max(behind, std::abs(HeightAt({9, 0})));
+  }
+  EXPECT_GT(before, 0.05);
+  EXPECT_LT(behind, 0.5 * before);
+}
+
+TEST_F(WorldTest, RemovedBodiesAreGone) {
+  const std::uint32_t id = Spawn(Box({1, 1, 1}, 500.0));
+  Run(10);
+  ASSERT_TRUE(world_.Apply(wire::RemoveBody{id}).ok());
+  EXPECT_TRUE(world_.view()->empty());
+  Run(10);
+  EXPECT_TRUE(world_.view()->empty());
+}
+
+}  // namespace
+}  // namespace onesea::world
