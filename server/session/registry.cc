@@ -33,14 +33,15 @@ absl::StatusOr<std::shared_ptr<SessionLoop>> Registry::Create(SessionSpec spec) 
   ONESEA_RETURN_IF_ERROR(Reserve(spec.name));
   const std::string name = spec.name;
   auto components = sea::BuildComponents(spec.recipe);
-  if (!components.ok()) {
+  auto world = MakeWorld(spec, transform_);
+  if (!components.ok() || !world.ok()) {
     absl::MutexLock lock(&mutex_);
     sessions_.erase(name);
-    return components.status();
+    return components.ok() ? world.status() : components.status();
   }
   if (spec.epoch_utc_ns == 0) spec.epoch_utc_ns = clock_.UtcNs();
-  auto session =
-      std::make_shared<SessionLoop>(std::move(spec), *std::move(components), clock_, transform_);
+  auto session = std::make_shared<SessionLoop>(std::move(spec), *std::move(components), clock_,
+                                               transform_, *std::move(world));
   absl::MutexLock lock(&mutex_);
   sessions_[name] = session;
   return session;

@@ -4,8 +4,10 @@
 #include <memory>
 
 #include "absl/status/status.h"
+#include "absl/status/statusor.h"
 #include "common/sea/components.h"
 #include "common/wire/session_spec.h"
+#include "server/world/world.h"
 
 /// The authoritative state of one session as a pure step: no clock, no thread, no network. Same
 /// spec, same components and same commands at the same ticks give the same state hash at every
@@ -14,8 +16,10 @@ namespace onesea::server {
 
 class Session {
  public:
-  /// Pre: `spec` is valid and `components` was built from its recipe.
-  Session(SessionSpec spec, std::shared_ptr<const sea::Components> components);
+  /// Pre: `spec` is valid, `components` was built from its recipe and `world` from the spec; null:
+  /// an empty one.
+  Session(SessionSpec spec, std::shared_ptr<const sea::Components> components,
+          std::unique_ptr<world::World> world = nullptr);
 
   /// Advances by one tick.
   void Step();
@@ -31,13 +35,23 @@ class Session {
   }  ///< as created; the recipe in force is components()->recipe
   const std::shared_ptr<const sea::Components>& components() const { return components_; }
 
-  /// Over the tick, the component hash and the timeline's ticks.
+  world::World& world() { return *world_; }
+  const world::World& world() const { return *world_; }
+
+  /// Over the tick, the component hash, the timeline's ticks and, if there is anything in it, the
+  /// world.
   std::uint64_t StateHash() const;
 
  private:
   SessionSpec spec_;
   std::shared_ptr<const sea::Components> components_;
+  std::unique_ptr<world::World> world_;
   Tick tick_ = 0;
 };
+
+/// The world that a session begins with: reads the terrain, checks the hulls. InvalidArgument,
+/// NotFound for files. Cost: up to seconds for large terrain.
+absl::StatusOr<std::unique_ptr<world::World>> MakeWorld(const SessionSpec& spec,
+                                                        sea::TransformKind transform);
 
 }  // namespace onesea::server

@@ -27,11 +27,13 @@ void RunAll(SessionRunner::Deferred& deferred) {
 }  // namespace
 
 SessionLoop::SessionLoop(SessionSpec spec, std::shared_ptr<const sea::Components> components,
-                         const Clock& clock, sea::TransformKind transform)
+                         const Clock& clock, sea::TransformKind transform,
+                         std::unique_ptr<world::World> world)
     : name_(spec.name),
       tick_rate_hz_(spec.recipe.tick_rate_hz),
       clock_(clock),
-      runner_(std::move(spec), std::move(components), transform, clock.MonotonicNs()) {
+      runner_(std::move(spec), std::move(components), transform, clock.MonotonicNs(),
+              std::move(world)) {
   {
     absl::MutexLock lock(&mutex_);
     PublishView();
@@ -63,6 +65,7 @@ void SessionLoop::Run() {
 void SessionLoop::PublishView() {
   absl::MutexLock lock(&view_mutex_);
   view_.tick = runner_.session().tick();
+  view_.world = runner_.session().world().view();
   if (view_.components != runner_.session().components()) {
     view_.components = runner_.session().components();
   }
@@ -193,6 +196,44 @@ void SessionLoop::CancelStep(std::uint64_t ticket) {
     runner_.CancelStep(ticket, deferred);
   }
   RunAll(deferred);
+}
+
+void SessionLoop::Command(wire::CommandHeader header, wire::WorldCommand command,
+                          CommandDone done) {
+  CommandRequest request{std::move(header), std::move(command), nullptr};
+  if (const auto* spawn = std::get_if<wire::SpawnBody>(&request.command)) {
+    absl::StatusOr<world::PreparedBody> body = world::PrepareBody(spawn->body);
+    if (!body.ok()) return done(body.status());
+    request.body = std::make_shared<const world::PreparedBody>(*std::move(body));
+  }
+  SessionRunner::Deferred deferred;
+  {
+    absl::MutexLock lock(&mutex_);
+    if (const absl::Status open = OpenStatus(); !open.ok()) {
+      deferred.push_back([done, open] { done(open); });
+    } else {
+      runner_.Command(std::move(request), std::move(done), clock_.MonotonicNs(), deferred);
+      PublishView();
+      changed_.Signal();
+    }
+  }
+  RunAll(deferred);
+}
+
+absl::StatusOr<wire::BodyWrench> SessionLoop::SetPose(const wire::BodyPose& pose) {
+  absl::MutexLock lock(&mutex_);
+  ONESEA_RETURN_IF_ERROR(OpenStatus());
+  return runner_.SetPose(pose, clock_.MonotonicNs());
+}
+
+std::shared_ptr<const std::string> SessionLoop::FindMesh(std::uint64_t hash) const {
+  absl::MutexLock lock(&mutex_);
+  return runner_.session().world().FindMesh(hash);
+}
+
+std::string SessionLoop::HolderOf(std::uint32_t body_id) const {
+  absl::MutexLock lock(&mutex_);
+  return runner_.HolderOf(body_id, clock_.MonotonicNs());
 }
 
 void SessionLoop::AddObserver(std::shared_ptr<SessionObserver> observer) {

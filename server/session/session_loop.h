@@ -24,6 +24,7 @@ namespace onesea::server {
 struct SessionView {
   Tick tick = 0;
   std::shared_ptr<const sea::Components> components;
+  std::shared_ptr<const world::WorldView> world;  ///< of that tick; never null
 };
 
 struct WeatherRequest {
@@ -50,7 +51,8 @@ class SessionLoop {
  public:
   /// Starts the thread. Pre: as Session's constructor. `clock` outlives the loop.
   SessionLoop(SessionSpec spec, std::shared_ptr<const sea::Components> components,
-              const Clock& clock, sea::TransformKind transform);
+              const Clock& clock, sea::TransformKind transform,
+              std::unique_ptr<world::World> world = nullptr);
   ~SessionLoop();
 
   const std::string& name() const { return name_; }
@@ -80,6 +82,18 @@ class SessionLoop {
   /// Takes a waiting participant out of the barrier; its `done` gets Cancelled. Nothing if it is
   /// too late.
   void CancelStep(std::uint64_t ticket);
+
+  /// A command on the world. It acts between two ticks: at once, or before the tick that it names;
+  /// then `done` is called, on the session's thread or on this one. A hull is read and checked on
+  /// this thread. Errors: InvalidArgument, NotFound, PermissionDenied (another's lease),
+  /// FailedPrecondition (the tick went by), ResourceExhausted.
+  void Command(wire::CommandHeader header, wire::WorldCommand command, CommandDone done);
+  /// As World::SetPose; PermissionDenied.
+  absl::StatusOr<wire::BodyWrench> SetPose(const wire::BodyPose& pose);
+  /// The hull's file of a body that is here, by its hash; null: none.
+  std::shared_ptr<const std::string> FindMesh(std::uint64_t hash) const;
+  /// Who holds the lease of a body; empty: nobody.
+  std::string HolderOf(std::uint32_t body_id) const;
 
   /// The observer gets OnWelcomeChanged from inside this call, or OnClosed if the session is
   /// closed.

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "common/wire/frame.h"
+#include "server/world/world.h"
 
 /// How a session's output leaves it.
 namespace onesea::server {
@@ -20,6 +21,7 @@ struct TickEvent {
               ///< at the last tick of every completed lock-step request
   const wire::ProbeHeights* probes =
       nullptr;  ///< set about once a second at a stamp instant; valid during the call
+  std::shared_ptr<const world::WorldView> world;  ///< at stamp.tick
 };
 
 /// Calls of one session come one at a time and in order, with the session's lock held: return

@@ -39,8 +39,9 @@ absl::Status LateStatus(const std::vector<LockStepBarrier::Waiting>& came, int p
 }  // namespace
 
 SessionRunner::SessionRunner(SessionSpec spec, std::shared_ptr<const sea::Components> components,
-                             sea::TransformKind transform, std::int64_t now_ns)
-    : session_(std::move(spec), std::move(components)),
+                             sea::TransformKind transform, std::int64_t now_ns,
+                             std::unique_ptr<world::World> world)
+    : session_(std::move(spec), std::move(components), std::move(world)),
       transform_(transform),
       pace_(session_.spec().pace),
       pacer_(session_.spec().recipe.tick_rate_hz, session_.spec().speed),
@@ -60,6 +61,7 @@ std::int64_t SessionRunner::Advance(std::int64_t now_ns, Deferred& deferred) {
     AdvanceSteps(now_ns, deferred);
   }
   if (stamp_owed_) TellLate(now_ns);
+  HandOver(deferred);
   if (!opened_.empty()) return now_ns;
   std::int64_t wake_ns = next_second_ns_;
   if (pace_ == Pace::kRealTime) wake_ns = std::min(wake_ns, pacer_.DueNs(session_.tick() + 1));
@@ -69,18 +71,18 @@ std::int64_t SessionRunner::Advance(std::int64_t now_ns, Deferred& deferred) {
 
 void SessionRunner::AdvanceRealTime(std::int64_t now_ns) {
   if (pacer_.ForgiveDebt(session_.tick() + 1, now_ns)) stamp_owed_ = true;
-  for (int n = 0; n < kTicksPerAdvance; ++n) {
+  for (int n = 0; n < TicksPerAdvance(); ++n) {
     const std::int64_t due_ns = pacer_.DueNs(session_.tick() + 1);
     if (due_ns > now_ns) return;
-    session_.Step();
+    MakeTick(now_ns);
     Tell(due_ns, IsStreamInstant());
   }
 }
 
 void SessionRunner::AdvanceSteps(std::int64_t now_ns, Deferred& deferred) {
-  for (int n = 0; n < kTicksPerAdvance && !opened_.empty(); ++n) {
+  for (int n = 0; n < TicksPerAdvance() && !opened_.empty(); ++n) {
     Opened& first = opened_.front();
-    session_.Step();
+    MakeTick(now_ns);
     if (--first.ticks_left == 0) stamp_owed_ = true;
     Tell(now_ns, IsStreamInstant());
     if (first.ticks_left > 0) continue;
@@ -126,6 +128,7 @@ void SessionRunner::Tell(std::int64_t due_ns, bool stream_instant) {
   TickEvent event;
   event.stamp = StampAt(due_ns);
   event.stream_instant = stream_instant;
+  event.world = session_.world().view();
   event.stamp_instant = std::exchange(stamp_owed_, false);
   if (event.stamp_instant && !observers_.empty() && std::exchange(probes_owed_, false)) {
     SampleProbes();
@@ -247,7 +250,11 @@ void SessionRunner::FailSteps(const absl::Status& status, Deferred& deferred) {
 }
 
 void SessionRunner::Close(std::string_view reason, Deferred& deferred) {
-  FailSteps(absl::NotFoundError(absl::StrCat("session: it ended: ", wire::Text(reason))), deferred);
+  const absl::Status ended =
+      absl::NotFoundError(absl::StrCat("session: it ended: ", wire::Text(reason)));
+  FailSteps(ended, deferred);
+  commands_.FailAll(ended);
+  HandOver(deferred);
   for (const std::shared_ptr<SessionObserver>& observer : observers_) observer->OnClosed(reason);
   observers_.clear();
 }

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "common/sea/point_query.h"
+#include "server/session/command_queue.h"
+#include "server/session/lease_book.h"
 #include "server/session/lock_step.h"
 #include "server/session/pacer.h"
 #include "server/session/session.h"
@@ -23,7 +25,8 @@ class SessionRunner {
   using Deferred = std::vector<std::function<void()>>;
 
   SessionRunner(SessionSpec spec, std::shared_ptr<const sea::Components> components,
-                sea::TransformKind transform, std::int64_t now_ns);
+                sea::TransformKind transform, std::int64_t now_ns,
+                std::unique_ptr<world::World> world = nullptr);
 
   /// Makes the ticks that are due, the stamps and the barrier's work; at most kTicksPerAdvance
   /// ticks, so that commands get their turn. Returns when to call again [ns, monotonic].
@@ -37,6 +40,13 @@ class SessionRunner {
   /// As SessionLoop's.
   std::uint64_t Step(StepRequest request, StepDone done, std::int64_t now_ns, Deferred& deferred);
   void CancelStep(std::uint64_t ticket, Deferred& deferred);
+  /// As SessionLoop's.
+  void Command(CommandRequest request, CommandDone done, std::int64_t now_ns, Deferred& deferred);
+  /// As World::SetPose, for whoever shows the lease of the body.
+  absl::StatusOr<wire::BodyWrench> SetPose(const wire::BodyPose& pose, std::int64_t now_ns);
+  std::string HolderOf(std::uint32_t body_id, std::int64_t now_ns) const {
+    return leases_.Holder(body_id, now_ns);
+  }
   void Close(std::string_view reason, Deferred& deferred);
 
   void AddObserver(std::shared_ptr<SessionObserver> observer);
@@ -50,6 +60,7 @@ class SessionRunner {
 
  private:
   static constexpr int kTicksPerAdvance = 1000;
+  static constexpr int kTicksPerAdvanceWithWorld = 20;  // of milliseconds each
   static constexpr std::size_t kOpenedMax = 16;
 
   // A barrier that opened: these wait until its ticks are made.
@@ -70,6 +81,11 @@ class SessionRunner {
   bool IsStreamInstant() const;
   void SampleProbes();
   void FailSteps(const absl::Status& status, Deferred& deferred);
+  void MakeTick(std::int64_t now_ns);
+  int TicksPerAdvance() const;
+  void Do(CommandQueue::Due due, std::int64_t now_ns);
+  absl::StatusOr<CommandResult> Act(const CommandRequest& request, std::int64_t now_ns);
+  void HandOver(Deferred& deferred);
 
   Session session_;
   sea::TransformKind transform_;
@@ -77,6 +93,9 @@ class SessionRunner {
   Pacer pacer_;
   LockStepBarrier barrier_;
   std::deque<Opened> opened_;
+  CommandQueue commands_;
+  LeaseBook leases_{RandomSecret};
+  Deferred answered_;  // of commands, for the next who gives the lock back
   std::int64_t next_second_ns_ = 0;
   bool stamp_owed_ = true;   // the next event is a stamp
   bool probes_owed_ = true;  // and carries probe heights

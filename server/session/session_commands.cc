@@ -1,0 +1,99 @@
+// Commands on a session's world: when they act, who may give them, who is answered.
+
+#include <iterator>
+#include <utility>
+
+#include "common/base/check.h"
+#include "server/session/session_runner.h"
+
+namespace onesea::server {
+namespace {
+
+// How far ahead a command may name its tick.
+constexpr std::int64_t kAheadMaxS = 60;
+// Of whoever spawned the body.
+constexpr double kSpawnLeaseS = 60.0;
+
+// The body that a command acts on, 0 for none.
+std::uint32_t BodyOf(const wire::WorldCommand& command) {
+  return std::visit(
+      [](const auto& one) -> std::uint32_t {
+        if constexpr (requires { one.body_id; }) return one.body_id;
+        return 0;
+      },
+      command);
+}
+
+}  // namespace
+
+int SessionRunner::TicksPerAdvance() const {
+  return session_.world().view()->empty() ? kTicksPerAdvance : kTicksPerAdvanceWithWorld;
+}
+
+void SessionRunner::MakeTick(std::int64_t now_ns) {
+  for (CommandQueue::Due& due : commands_.TakeDue(session_.tick() + 1)) Do(std::move(due), now_ns);
+  session_.Step();
+}
+
+void SessionRunner::Command(CommandRequest request, CommandDone done, std::int64_t now_ns,
+                            Deferred& deferred) {
+  CommandDone later = [this, done = std::move(done)](const absl::StatusOr<CommandResult>& result) {
+    answered_.push_back([done, result] { done(result); });
+  };
+  const std::int64_t ahead_max = kAheadMaxS * session_.spec().recipe.tick_rate_hz;
+  for (CommandQueue::Due& due :
+       commands_.Submit(std::move(request), std::move(later), session_.tick(), ahead_max)) {
+    Do(std::move(due), now_ns);
+  }
+  HandOver(deferred);
+}
+
+void SessionRunner::Do(CommandQueue::Due due, std::int64_t now_ns) {
+  commands_.Answer(due.ticket, Act(due.request, now_ns));
+}
+
+absl::StatusOr<CommandResult> SessionRunner::Act(const CommandRequest& request,
+                                                 std::int64_t now_ns) {
+  world::World& world = session_.world();
+  const std::string& shown = request.header.lease;
+  CommandResult result;
+  result.tick = session_.tick() + 1;
+  if (request.body != nullptr) {
+    const auto& spawn = std::get<wire::SpawnBody>(request.command);
+    ONESEA_ASSIGN_OR_RETURN(result.id, world.Spawn(*request.body, spawn.start));
+    ONESEA_ASSIGN_OR_RETURN(result.lease,
+                            leases_.Take(result.id, "", spawn.body.owner, kSpawnLeaseS, now_ns));
+    return result;
+  }
+  if (const auto* take = std::get_if<wire::TakeLease>(&request.command)) {
+    ONESEA_ASSIGN_OR_RETURN(result.id, world.Apply(request.command));
+    ONESEA_ASSIGN_OR_RETURN(
+        result.lease, leases_.Take(take->body_id, shown, take->holder, take->duration_s, now_ns));
+    return result;
+  }
+  const std::uint32_t body = BodyOf(request.command);
+  if (body != 0 && world.HasBody(body)) {
+    ONESEA_RETURN_IF_ERROR(leases_.Use(body, shown, now_ns));
+  }
+  ONESEA_ASSIGN_OR_RETURN(result.id, world.Apply(request.command));
+  if (std::holds_alternative<wire::ReleaseLease>(request.command)) {
+    ONESEA_RETURN_IF_ERROR(leases_.Release(body, shown, now_ns));
+  }
+  if (std::holds_alternative<wire::RemoveBody>(request.command)) leases_.Forget(body);
+  return result;
+}
+
+absl::StatusOr<wire::BodyWrench> SessionRunner::SetPose(const wire::BodyPose& pose,
+                                                        std::int64_t now_ns) {
+  if (session_.world().HasBody(pose.body_id)) {
+    ONESEA_RETURN_IF_ERROR(leases_.Use(pose.body_id, pose.lease, now_ns));
+  }
+  return session_.world().SetPose(pose);
+}
+
+void SessionRunner::HandOver(Deferred& deferred) {
+  std::move(answered_.begin(), answered_.end(), std::back_inserter(deferred));
+  answered_.clear();
+}
+
+}  // namespace onesea::server
