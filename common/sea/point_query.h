@@ -13,8 +13,9 @@
 /// Point queries: the sea at a place and any time, choppy displacement inverted.
 namespace onesea::sea {
 
-/// Layers that an answer contains; the interaction layer joins later. Bit set, sent on the wire.
+/// Layers that an answer contains. Bit set, sent on the wire.
 inline constexpr std::uint32_t kLayerSpectral = 1;
+inline constexpr std::uint32_t kLayerInteraction = 2;  ///< wakes and splashes
 
 enum class QueryDetail : std::uint8_t {
   kHeight = 1,   ///< height, displacement, residual, folded

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "absl/strings/str_cat.h"
 #include "common/base/check.h"
@@ -84,6 +85,30 @@ void SampleSurface(const sea::SeaSnapshot& snapshot, const QueryRequest& request
   }
 }
 
+// The layers' slopes add as their heights do.
+void Tilt(Vec2d slope, float* normal) {
+  const double up = std::max(static_cast<double>(normal[2]), 1e-3);
+  const double x = normal[0] / up - slope.x, y = normal[1] / up - slope.y;
+  const double scale = 1.0 / std::sqrt(x * x + y * y + 1.0);
+  normal[0] = static_cast<float>(scale * x);
+  normal[1] = static_cast<float>(scale * y);
+  normal[2] = static_cast<float>(scale);
+}
+
+void AddInteraction(const sea::InteractionSnapshot& interaction, const QueryRequest& request,
+                    QueryAnswer& answer) {
+  answer.layers |= sea::kLayerInteraction;
+  for (std::size_t n = 0; n < request.points_m.size(); ++n) {
+    const sea::InteractionSample sample = sea::SampleInteraction(interaction, request.points_m[n]);
+    answer.height_m[n] += static_cast<float>(sample.height_m);
+    if (!answer.normal.empty()) Tilt(sample.slope, &answer.normal[3 * n]);
+    if (answer.velocity_m_per_s.empty()) continue;
+    answer.velocity_m_per_s[3 * n] += static_cast<float>(sample.velocity.x);
+    answer.velocity_m_per_s[3 * n + 1] += static_cast<float>(sample.velocity.y);
+    answer.velocity_m_per_s[3 * n + 2] += static_cast<float>(sample.velocity.z);
+  }
+}
+
 void SampleDepth(const sea::Components& components, SimTime time, const QueryRequest& request,
                  QueryAnswer& answer) {
   const std::size_t count = request.depth_m.size();
@@ -132,8 +157,8 @@ absl::Status ValidateQuery(const QueryRequest& request, const sea::Recipe& recip
 }
 
 absl::StatusOr<QueryAnswer> QueryEngine::Answer(
-    const std::shared_ptr<const sea::Components>& components, Tick now,
-    const QueryRequest& request) {
+    const std::shared_ptr<const sea::Components>& components, Tick now, const QueryRequest& request,
+    const sea::InteractionSnapshot* interaction) {
   ONESEA_RETURN_IF_ERROR(ValidateQuery(request, components->recipe));
   const SimTime time = TimeOf(request, now, components->recipe.tick_rate_hz);
   const std::shared_ptr<const sea::SeaSnapshot> snapshot =
@@ -144,6 +169,10 @@ absl::StatusOr<QueryAnswer> QueryEngine::Answer(
   answer.layers = sea::kLayerSpectral;
   answer.height_error_bound_m = snapshot->HeightErrorBound();
   SampleSurface(*snapshot, request, answer);
+  if (interaction != nullptr && !interaction->fields.empty() &&
+      time == TimeOfTick(now, components->recipe.tick_rate_hz)) {
+    AddInteraction(*interaction, request, answer);
+  }
   if (!request.depth_m.empty()) SampleDepth(*components, time, request, answer);
   return answer;
 }

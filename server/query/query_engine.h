@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "absl/status/statusor.h"
+#include "common/sea/interaction_field.h"
 #include "common/wire/query.h"
 #include "server/query/snapshot_cache.h"
 
@@ -21,8 +22,11 @@ class QueryEngine {
 
   /// Thread-safe. `now` is the tick that a request without a time means. Depth answers are direct
   /// sums, about 15 µs a point; points above the surface are listed as dry and get zeros.
+  /// `interaction` is the layer at tick `now`, or null: it is added to answers for that very tick,
+  /// 20 ns a point and region, and `layers` says so. Depth answers are of the spectral sea alone.
   absl::StatusOr<wire::QueryAnswer> Answer(const std::shared_ptr<const sea::Components>& components,
-                                           Tick now, const wire::QueryRequest& request);
+                                           Tick now, const wire::QueryRequest& request,
+                                           const sea::InteractionSnapshot* interaction = nullptr);
 
   /// Thread-safe. Notes that the present tick `now` was asked for; guesses when it will be next:
   /// as many ticks later as this was after the last time. Nothing if the tick was noted already or

@@ -19,6 +19,21 @@ using WithQueryMethods = v1::OneSea::WithCallbackMethod_QueryPoints<
     v1::OneSea::WithCallbackMethod_StreamQueries<v1::OneSea::WithCallbackMethod_SyncClock<
         v1::OneSea::WithCallbackMethod_GetStateHash<Base>>>>;
 
-using OneSeaMethods = WithQueryMethods<WithSessionMethods<WatchMethods>>;
+template <class Base>
+using WithBodyMethods =
+    v1::OneSea::WithCallbackMethod_SpawnBody<v1::OneSea::WithCallbackMethod_RemoveBody<
+        v1::OneSea::WithCallbackMethod_DriveBody<v1::OneSea::WithCallbackMethod_ApplyImpulse<
+            v1::OneSea::WithCallbackMethod_TakeLease<v1::OneSea::WithCallbackMethod_ReleaseLease<
+                v1::OneSea::WithCallbackMethod_ListBodies<v1::OneSea::WithCallbackMethod_GetMesh<
+                    v1::OneSea::WithCallbackMethod_StreamBodyPoses<Base>>>>>>>>>;
+
+template <class Base>
+using WithWaterMethods = v1::OneSea::WithCallbackMethod_Explode<
+    v1::OneSea::WithCallbackMethod_SetObstacle<v1::OneSea::WithCallbackMethod_RemoveObstacle<
+        v1::OneSea::WithCallbackMethod_AddRegion<v1::OneSea::WithCallbackMethod_RemoveRegion<
+            v1::OneSea::WithCallbackMethod_StreamInstruments<Base>>>>>>;
+
+using OneSeaMethods =
+    WithWaterMethods<WithBodyMethods<WithQueryMethods<WithSessionMethods<WatchMethods>>>>;
 
 }  // namespace onesea::server

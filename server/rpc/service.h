@@ -54,6 +54,47 @@ class OneSeaService final : public OneSeaMethods {
                                          const v1::GetStateHashRequest* request,
                                          v1::GetStateHashResponse* response) override;
 
+  // Of the world: service_world.cc.
+  grpc::ServerUnaryReactor* SpawnBody(grpc::CallbackServerContext* context,
+                                      const v1::SpawnBodyRequest* request,
+                                      v1::SpawnBodyResponse* response) override;
+  grpc::ServerUnaryReactor* RemoveBody(grpc::CallbackServerContext* context,
+                                       const v1::RemoveBodyRequest* request,
+                                       v1::RemoveBodyResponse* response) override;
+  grpc::ServerUnaryReactor* DriveBody(grpc::CallbackServerContext* context,
+                                      const v1::DriveBodyRequest* request,
+                                      v1::DriveBodyResponse* response) override;
+  grpc::ServerUnaryReactor* ApplyImpulse(grpc::CallbackServerContext* context,
+                                         const v1::ApplyImpulseRequest* request,
+                                         v1::ApplyImpulseResponse* response) override;
+  grpc::ServerUnaryReactor* Explode(grpc::CallbackServerContext* context,
+                                    const v1::ExplodeRequest* request,
+                                    v1::ExplodeResponse* response) override;
+  grpc::ServerUnaryReactor* SetObstacle(grpc::CallbackServerContext* context,
+                                        const v1::SetObstacleRequest* request,
+                                        v1::SetObstacleResponse* response) override;
+  grpc::ServerUnaryReactor* RemoveObstacle(grpc::CallbackServerContext* context,
+                                           const v1::RemoveObstacleRequest* request,
+                                           v1::RemoveObstacleResponse* response) override;
+  grpc::ServerUnaryReactor* AddRegion(grpc::CallbackServerContext* context,
+                                      const v1::AddRegionRequest* request,
+                                      v1::AddRegionResponse* response) override;
+  grpc::ServerUnaryReactor* RemoveRegion(grpc::CallbackServerContext* context,
+                                         const v1::RemoveRegionRequest* request,
+                                         v1::RemoveRegionResponse* response) override;
+  grpc::ServerUnaryReactor* TakeLease(grpc::CallbackServerContext* context,
+                                      const v1::TakeLeaseRequest* request,
+                                      v1::TakeLeaseResponse* response) override;
+  grpc::ServerUnaryReactor* ReleaseLease(grpc::CallbackServerContext* context,
+                                         const v1::ReleaseLeaseRequest* request,
+                                         v1::ReleaseLeaseResponse* response) override;
+  grpc::ServerUnaryReactor* ListBodies(grpc::CallbackServerContext* context,
+                                       const v1::ListBodiesRequest* request,
+                                       v1::ListBodiesResponse* response) override;
+  grpc::ServerUnaryReactor* GetMesh(grpc::CallbackServerContext* context,
+                                    const v1::GetMeshRequest* request,
+                                    v1::GetMeshResponse* response) override;
+
  private:
   Registry& registry_;
   const Clock& clock_;

@@ -49,10 +49,11 @@ Broadcast::Newest Broadcast::newest(Audience audience, bool with_keyframe) const
   absl::MutexLock lock(&mutex_);
   FrameBuilder& from = builder(audience);
   Newest newest;
+  // First, since it may make a new frame.
+  if (with_keyframe && from.newest_sequence() >= 0) newest.keyframe = from.Keyframe();
   newest.sequence = from.newest_sequence();
   newest.frame = from.newest();
   newest.closed = closed();
-  if (with_keyframe && newest.sequence >= 0) newest.keyframe = from.Keyframe();
   return newest;
 }
 

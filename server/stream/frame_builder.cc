@@ -19,6 +19,9 @@ void FrameBuilder::OnWelcome(std::shared_ptr<const wire::Welcome> welcome) {
   const bool first = welcome_ == nullptr;
   welcome_ = std::move(welcome);
   keyframe_.reset();
+  if (audience_ == Audience::kEveryFrame && !encoder_) {
+    encoder_.emplace(1.0 / welcome_->session.tick_rate_hz);
+  }
   if (first || !stamp_.has_value()) return;
   ++sequence_;
   newest_ = Keyframe();
@@ -31,6 +34,7 @@ bool FrameBuilder::OnTick(const TickEvent& event, bool anybody_watches) {
   const bool changed =
       !stamp_.has_value() || event.stamp.speed != stamp_->speed || event.stamp.pace != stamp_->pace;
   stamp_ = event.stamp;
+  world_ = event.world;
   keyframe_.reset();
   if (event.probes != nullptr) {
     probes_ = *event.probes;
@@ -66,13 +70,25 @@ void FrameBuilder::Emit() {
   frame.stamp = stamp_;
   if (probes_owed_) frame.probes = probes_;
   frame.farewell = farewell_;
+  EncodeWorld(frame);
   told_ = stamp_;
   probes_owed_ = held_back_ = false;
   keyframe_.reset();
   newest_ = std::make_shared<EncodedFrame>(EncodedFrame{sequence_, wire::EncodeFrame(frame)});
 }
 
-wire::Frame FrameBuilder::Keyframed() const {
+// What changed in the world since the last frame.
+void FrameBuilder::EncodeWorld(wire::Frame& frame) {
+  if (!encoder_ || world_ == nullptr || (world_->empty() && !world_told_)) return;
+  frame.world = encoder_->Encode({.tick = world_->tick,
+                                  .interaction = world_->interaction.get(),
+                                  .bodies = world_->bodies,
+                                  .water_level_m = world_->water_level_m,
+                                  .spray = {}});
+  world_told_ = true;
+}
+
+wire::Frame FrameBuilder::Keyframed() {
   wire::Frame frame;
   frame.sequence = sequence_;
   frame.keyframe = true;
@@ -81,6 +97,7 @@ wire::Frame FrameBuilder::Keyframed() const {
   frame.farewell = farewell_;
   if (welcome_ == nullptr) return frame;
   frame.welcome = *welcome_;
+  if (world_told_) frame.world = encoder_->Keyframe();
   if (stamp_.has_value()) {
     frame.welcome->session.tick = stamp_->tick;
     frame.welcome->session.pace = stamp_->pace;
@@ -90,6 +107,10 @@ wire::Frame FrameBuilder::Keyframed() const {
 }
 
 const FramePtr& FrameBuilder::Keyframe() {
+  // What receivers hold is as old as the last frame, which may be long ago if nobody watched.
+  const bool stale = encoder_ && world_ != nullptr && (world_told_ || !world_->empty()) &&
+                     stamp_.has_value() && (!told_.has_value() || told_->tick != stamp_->tick);
+  if (stale) Emit();
   if (keyframe_ == nullptr) {
     keyframe_ =
         std::make_shared<EncodedFrame>(EncodedFrame{sequence_, wire::EncodeFrame(Keyframed())});

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "common/wire/frame.h"
+#include "common/wire/world_encoder.h"
 #include "server/session/session_observer.h"
 #include "server/stream/encoded_frame.h"
 
@@ -40,14 +41,16 @@ class FrameBuilder {
   std::int64_t newest_sequence() const { return stamp_.has_value() || farewell_ ? sequence_ : -1; }
   /// For those who have the frame before. Pre: newest_sequence() > 0.
   const FramePtr& newest() const { return newest_; }
-  /// Welcome, newest stamp and probes under newest_sequence(). Encoded on demand, at most once per
-  /// tick. Pre: newest_sequence() >= 0.
+  /// Welcome, newest stamp, probes and world under newest_sequence(), which may be a new one: the
+  /// world is told to everybody first if it has changed. Encoded on demand, at most once per tick.
+  /// Pre: newest_sequence() >= 0.
   const FramePtr& Keyframe();
 
  private:
   std::int64_t SpacingNs() const;
   void Emit();
-  wire::Frame Keyframed() const;
+  void EncodeWorld(wire::Frame& frame);
+  wire::Frame Keyframed();
 
   Audience audience_;
   std::shared_ptr<const wire::Welcome> welcome_;
@@ -57,6 +60,10 @@ class FrameBuilder {
   bool probes_owed_ = false;
   bool held_back_ = false;
   std::optional<std::string> farewell_;
+  // Of those who get every frame.
+  std::shared_ptr<const world::WorldView> world_;  // newest
+  std::optional<wire::WorldEncoder> encoder_;      // what they hold
+  bool world_told_ = false;                        // they hold something
   std::int64_t sequence_ = 0;
   FramePtr newest_;
   FramePtr keyframe_;  // of the newest state, or null

@@ -1,0 +1,179 @@
+// Commands on the world and what is told of it.
+
+#include <utility>
+
+#include "common/base/check.h"
+#include "common/wire/proto_body.h"
+#include "common/wire/proto_world.h"
+#include "server/rpc/service.h"
+#include "server/rpc/status_map.h"
+
+namespace onesea::server {
+namespace {
+
+grpc::ServerUnaryReactor* Answer(grpc::CallbackServerContext* context, const absl::Status& status) {
+  grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
+  reactor->Finish(ToGrpc(status));
+  return reactor;
+}
+
+// Gives a command to its session and answers when it has acted.
+template <typename Request, typename Response>
+void Command(Registry& registry, const Request& request, Response* response,
+             grpc::ServerUnaryReactor* reactor, void (*fill)(const CommandResult&, Response*)) {
+  const auto give = [&]() -> absl::Status {
+    ONESEA_ASSIGN_OR_RETURN(wire::HeadedCommand headed, wire::FromProto(request));
+    ONESEA_ASSIGN_OR_RETURN(const std::shared_ptr<SessionLoop> session,
+                            registry.Find(headed.header.session));
+    session->Command(std::move(headed.header), std::move(headed.command),
+                     [reactor, response, fill](const absl::StatusOr<CommandResult>& result) {
+                       if (result.ok()) {
+                         response->set_tick(result->tick);
+                         fill(*result, response);
+                       }
+                       reactor->Finish(ToGrpc(result.status()));
+                     });
+    return absl::OkStatus();
+  };
+  if (const absl::Status status = give(); !status.ok()) reactor->Finish(ToGrpc(status));
+}
+
+template <typename Request, typename Response>
+grpc::ServerUnaryReactor* Command(grpc::CallbackServerContext* context, Registry& registry,
+                                  const Request* request, Response* response) {
+  grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
+  Command<Request, Response>(registry, *request, response, reactor,
+                             [](const CommandResult&, Response*) {});
+  return reactor;
+}
+
+}  // namespace
+
+// A hull may take a while to read and check.
+grpc::ServerUnaryReactor* OneSeaService::SpawnBody(grpc::CallbackServerContext* context,
+                                                   const v1::SpawnBodyRequest* request,
+                                                   v1::SpawnBodyResponse* response) {
+  grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
+  const absl::Status posted = builder_.Post([this, request, response, reactor] {
+    Command<v1::SpawnBodyRequest, v1::SpawnBodyResponse>(
+        registry_, *request, response, reactor,
+        [](const CommandResult& result, v1::SpawnBodyResponse* out) {
+          out->set_body_id(result.id);
+          out->set_lease(result.lease);
+        });
+  });
+  if (!posted.ok()) reactor->Finish(ToGrpc(posted));
+  return reactor;
+}
+
+grpc::ServerUnaryReactor* OneSeaService::RemoveBody(grpc::CallbackServerContext* context,
+                                                    const v1::RemoveBodyRequest* request,
+                                                    v1::RemoveBodyResponse* response) {
+  return Command(context, registry_, request, response);
+}
+
+grpc::ServerUnaryReactor* OneSeaService::DriveBody(grpc::CallbackServerContext* context,
+                                                   const v1::DriveBodyRequest* request,
+                                                   v1::DriveBodyResponse* response) {
+  return Command(context, registry_, request, response);
+}
+
+grpc::ServerUnaryReactor* OneSeaService::ApplyImpulse(grpc::CallbackServerContext* context,
+                                                      const v1::ApplyImpulseRequest* request,
+                                                      v1::ApplyImpulseResponse* response) {
+  return Command(context, registry_, request, response);
+}
+
+grpc::ServerUnaryReactor* OneSeaService::Explode(grpc::CallbackServerContext* context,
+                                                 const v1::ExplodeRequest* request,
+                                                 v1::ExplodeResponse* response) {
+  return Command(context, registry_, request, response);
+}
+
+grpc::ServerUnaryReactor* OneSeaService::RemoveObstacle(grpc::CallbackServerContext* context,
+                                                        const v1::RemoveObstacleRequest* request,
+                                                        v1::RemoveObstacleResponse* response) {
+  return Command(context, registry_, request, response);
+}
+
+grpc::ServerUnaryReactor* OneSeaService::RemoveRegion(grpc::CallbackServerContext* context,
+                                                      const v1::RemoveRegionRequest* request,
+                                                      v1::RemoveRegionResponse* response) {
+  return Command(context, registry_, request, response);
+}
+
+grpc::ServerUnaryReactor* OneSeaService::ReleaseLease(grpc::CallbackServerContext* context,
+                                                      const v1::ReleaseLeaseRequest* request,
+                                                      v1::ReleaseLeaseResponse* response) {
+  return Command(context, registry_, request, response);
+}
+
+grpc::ServerUnaryReactor* OneSeaService::SetObstacle(grpc::CallbackServerContext* context,
+                                                     const v1::SetObstacleRequest* request,
+                                                     v1::SetObstacleResponse* response) {
+  grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
+  Command<v1::SetObstacleRequest, v1::SetObstacleResponse>(
+      registry_, *request, response, reactor,
+      [](const CommandResult& result, v1::SetObstacleResponse* out) {
+        out->set_obstacle_id(result.id);
+      });
+  return reactor;
+}
+
+grpc::ServerUnaryReactor* OneSeaService::AddRegion(grpc::CallbackServerContext* context,
+                                                   const v1::AddRegionRequest* request,
+                                                   v1::AddRegionResponse* response) {
+  grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
+  Command<v1::AddRegionRequest, v1::AddRegionResponse>(
+      registry_, *request, response, reactor,
+      [](const CommandResult& result, v1::AddRegionResponse* out) {
+        out->set_region_id(result.id);
+      });
+  return reactor;
+}
+
+grpc::ServerUnaryReactor* OneSeaService::TakeLease(grpc::CallbackServerContext* context,
+                                                   const v1::TakeLeaseRequest* request,
+                                                   v1::TakeLeaseResponse* response) {
+  grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
+  Command<v1::TakeLeaseRequest, v1::TakeLeaseResponse>(
+      registry_, *request, response, reactor,
+      [](const CommandResult& result, v1::TakeLeaseResponse* out) {
+        out->set_lease(result.lease);
+      });
+  return reactor;
+}
+
+grpc::ServerUnaryReactor* OneSeaService::ListBodies(grpc::CallbackServerContext* context,
+                                                    const v1::ListBodiesRequest* request,
+                                                    v1::ListBodiesResponse* response) {
+  const absl::StatusOr<std::shared_ptr<SessionLoop>> session = registry_.Find(request->session());
+  if (!session.ok()) return Answer(context, session.status());
+  const SessionView view = (*session)->View();
+  response->set_tick(view.tick);
+  for (const wire::BodyView& body : view.world->bodies) {
+    v1::ListBodiesResponse::Body* out = response->add_bodies();
+    wire::ToProto(*body.info, out->mutable_info());
+    const wire::BodyState& state = body.state;
+    wire::ToProto(wire::Kinematics{state.position_m, state.turn, state.velocity_m_per_s,
+                                   state.spin_rad_per_s},
+                  out->mutable_state());
+    out->set_driver((*session)->HolderOf(state.id));
+  }
+  return Answer(context, absl::OkStatus());
+}
+
+grpc::ServerUnaryReactor* OneSeaService::GetMesh(grpc::CallbackServerContext* context,
+                                                 const v1::GetMeshRequest* request,
+                                                 v1::GetMeshResponse* response) {
+  const absl::StatusOr<std::shared_ptr<SessionLoop>> session = registry_.Find(request->session());
+  if (!session.ok()) return Answer(context, session.status());
+  const std::shared_ptr<const std::string> mesh = (*session)->FindMesh(request->hash());
+  if (mesh == nullptr) {
+    return Answer(context, absl::NotFoundError("hash: no body of the session has this mesh"));
+  }
+  response->set_file(*mesh);
+  return Answer(context, absl::OkStatus());
+}
+
+}  // namespace onesea::server
