@@ -19,5 +19,10 @@ CliCommand StepCommand();
 CliCommand SpeedCommand();
 CliCommand HashCommand();
 CliCommand SpectrumCommand();
+CliCommand SpawnCommand();
+CliCommand BodiesCommand();
+CliCommand DriveCommand();
+CliCommand ExplodeCommand();
+CliCommand RemoveCommand();
 
 }  // namespace onesea::app

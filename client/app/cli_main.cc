@@ -7,10 +7,11 @@
 
 int main(int argc, char** argv) {
   using namespace onesea::app;  // NOLINT(build/namespaces): the program is this namespace
-  const std::vector<CliCommand> commands = {SessionsCommand(), CreateCommand(), DeleteCommand(),
-                                            QueryCommand(),    WatchCommand(),  WeatherCommand(),
-                                            HoldCommand(),     ResumeCommand(), StepCommand(),
-                                            SpeedCommand(),    HashCommand(),   SpectrumCommand()};
+  const std::vector<CliCommand> commands = {
+      SessionsCommand(), CreateCommand(),   DeleteCommand(), QueryCommand(),  WatchCommand(),
+      WeatherCommand(),  HoldCommand(),     ResumeCommand(), StepCommand(),   SpeedCommand(),
+      HashCommand(),     SpectrumCommand(), SpawnCommand(),  BodiesCommand(), DriveCommand(),
+      ExplodeCommand(),  RemoveCommand()};
   // An error is one line; gRPC would add its own.
   setenv("GRPC_VERBOSITY", "NONE", /*overwrite=*/0);
   const char* server = std::getenv("ONESEA_SERVER");

@@ -100,12 +100,17 @@ struct Reply {
   }
 };
 
+bool HasWakes(const Reply& reply) { return (reply.shown.layers & sea::kLayerInteraction) != 0; }
+
 void PrintJson(const Reply& reply, std::ostream& out) {
   JsonWriter json;
   json.BeginObject().Key("session").Value(reply.session);
   json.Key("time_s").Value(reply.shown.time_s);
   json.Key("computed").Value(reply.server ? "here" : "by the server");
   json.Key("height_error_bound_m").Value(reply.shown.height_error_bound_m);
+  json.Key("layers").BeginArray().Value("spectral");
+  if (HasWakes(reply)) json.Value("interaction");
+  json.EndArray();
   json.Key("points").BeginArray();
   for (std::size_t n = 0; n < reply.request.points_m.size(); ++n) {
     json.BeginObject().Key("x_m").Value(reply.request.points_m[n].x);
@@ -137,9 +142,10 @@ void PrintTriple(absl::string_view name, const std::vector<float>& values, std::
 }
 
 void PrintText(const Reply& reply, std::ostream& out) {
-  out << absl::StreamFormat("%s at %.3f s, computed %s, error bound %.1f mm\n", reply.session,
+  out << absl::StreamFormat("%s at %.3f s, computed %s, error bound %.1f mm%s\n", reply.session,
                             reply.shown.time_s, reply.server ? "here" : "by the server",
-                            1e3 * reply.shown.height_error_bound_m);
+                            1e3 * reply.shown.height_error_bound_m,
+                            HasWakes(reply) ? ", with wakes" : "");
   for (std::size_t n = 0; n < reply.request.points_m.size(); ++n) {
     const Vec2d point = reply.request.points_m[n];
     out << absl::StreamFormat("(%g, %g): height %+.4f m", point.x, point.y,

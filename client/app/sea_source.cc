@@ -52,6 +52,7 @@ class ServerSource : public SeaSource, private SessionListener {
       : address_(std::move(address)), session_(session) {
     SessionClientOptions options;
     options.session = session;
+    options.every_frame = true;  // bodies and wakes move in every one
     options.client_name = "onesea-view";
     client_ = std::make_unique<SessionClient>(ConnectTo(address_), options,
                                               static_cast<SessionListener&>(*this));
@@ -74,6 +75,7 @@ class ServerSource : public SeaSource, private SessionListener {
     absl::MutexLock lock(&mutex_);
     return sea_ == nullptr ? nullptr : sea_->components();
   }
+  std::shared_ptr<const WorldView> world() const override { return world_.view(); }
   SimTime Now() override { return client_->Now().render; }
   SourceReport Report() override {
     const SeaTime now = client_->Now();
@@ -98,6 +100,10 @@ class ServerSource : public SeaSource, private SessionListener {
   void OnFrame(const wire::Frame& frame) override {
     absl::MutexLock lock(&mutex_);
     if (frame.welcome.has_value()) Welcome(*frame.welcome);
+    if (sea_ != nullptr) {
+      // A frame that doesn't fit is made good by the next keyframe.
+      world_.Apply(frame, sea_->components()->recipe.tick_rate_hz).IgnoreError();
+    }
     if (frame.probes.has_value() && sea_ != nullptr) {
       const absl::StatusOr<double> drift = sea_->CompareProbes(*frame.probes);
       if (drift.ok()) client_->ReportDrift(*drift);
@@ -137,6 +143,7 @@ class ServerSource : public SeaSource, private SessionListener {
   const std::string address_, session_;
   mutable absl::Mutex mutex_;
   std::unique_ptr<LocalSea> sea_ ABSL_GUARDED_BY(mutex_);
+  LocalWorld world_;
   std::string link_ ABSL_GUARDED_BY(mutex_) = "connecting";
   absl::Status status_ ABSL_GUARDED_BY(mutex_);
   std::unique_ptr<SessionClient> client_;  // last: stops before what it calls is gone

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "absl/status/statusor.h"
+#include "client/model/local_world.h"
 #include "common/base/sim_time.h"
 #include "common/sea/components.h"
 #include "common/wire/session_spec.h"
@@ -26,6 +27,8 @@ class SeaSource {
   virtual ~SeaSource() = default;
   /// The waves in force; another object after a change of weather.
   virtual std::shared_ptr<const sea::Components> components() const = 0;
+  /// Wakes and bodies; null: this source has none.
+  virtual std::shared_ptr<const WorldView> world() const { return nullptr; }
   /// The moment to draw now.
   virtual SimTime Now() = 0;
   virtual SourceReport Report() = 0;

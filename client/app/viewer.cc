@@ -13,6 +13,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "client/app/body_models.h"
 #include "client/app/frame_builder.h"
 #include "client/app/png_writer.h"
 #include "client/app/window.h"
@@ -56,6 +57,10 @@ class Scene {
                const ViewSettings& settings, int width, int height, unsigned framebuffer) {
     // The place decides where foam is kept; the height over the waves is known after synthesis.
     frame_.camera = camera.At(0.0);
+    if (const std::shared_ptr<const WorldView> world = source.world(); world != nullptr) {
+      builder_.SetInteraction(world->shared_interaction());
+      frame_.hulls = models_.At(*world, time);
+    }
     builder_.Fill(source.components(), time, frame_);
     frame_.camera = camera.At(builder_.HeightAt(camera.place()));
     ApplySettings(settings, frame_);
@@ -88,6 +93,7 @@ class Scene {
   std::unique_ptr<render::Renderer> renderer_;
   Panel panel_;
   FrameBuilder builder_;
+  BodyModels models_;
   render::RenderFrame frame_;
 };
 

@@ -28,6 +28,7 @@ class WorldView {
 
   /// Heights and foam of the last update; for renderers that make textures of them.
   const sea::InteractionSnapshot& interaction() const { return *newest_; }
+  std::shared_ptr<const sea::InteractionSnapshot> shared_interaction() const { return newest_; }
   /// One's place and motion at a time: Body::At. Ascending by id.
   std::span<const wire::BodyTable::Body> bodies() const { return bodies_.bodies(); }
   const wire::BodyTable::Body* FindBody(std::uint32_t id) const { return bodies_.Find(id); }

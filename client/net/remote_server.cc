@@ -1,17 +1,14 @@
 #include "client/net/remote_server.h"
 
-#include <grpc/support/time.h>
 #include <grpcpp/channel.h>
-#include <grpcpp/client_context.h>
 
 #include <utility>
 
-#include "client/net/grpc_status.h"
+#include "client/net/remote_server_impl.h"
 #include "common/base/check.h"
 #include "common/wire/proto_query.h"
 #include "common/wire/proto_sea.h"
 #include "common/wire/proto_session.h"
-#include "onesea/v1/onesea.grpc.pb.h"
 
 namespace onesea::client {
 namespace {
@@ -26,27 +23,6 @@ absl::StatusOr<wire::QueryAnswer> AnswerTo(const wire::QueryRequest& request,
 }
 
 }  // namespace
-
-struct RemoteServer::Impl {
-  std::shared_ptr<v1::OneSea::Stub> stub;
-  std::int64_t timeout_ns;
-
-  // One call of `method` with a deadline.
-  template <typename Request, typename Response>
-  absl::Status Call(grpc::Status (v1::OneSea::Stub::*method)(grpc::ClientContext*, const Request&,
-                                                             Response*),
-                    const Request& request, Response* response, std::int64_t call_timeout_ns) {
-    grpc::ClientContext context;
-    context.set_deadline(gpr_time_from_nanos(call_timeout_ns, GPR_TIMESPAN));
-    return FromGrpc((stub.get()->*method)(&context, request, response));
-  }
-  template <typename Request, typename Response>
-  absl::Status Call(grpc::Status (v1::OneSea::Stub::*method)(grpc::ClientContext*, const Request&,
-                                                             Response*),
-                    const Request& request, Response* response) {
-    return Call(method, request, response, timeout_ns);
-  }
-};
 
 RemoteServer::RemoteServer(const ChannelFactory& connect, std::int64_t timeout_ns)
     : impl_(std::make_unique<Impl>(Impl{v1::OneSea::NewStub(connect()), timeout_ns})) {}

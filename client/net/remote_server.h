@@ -11,6 +11,7 @@
 #include "client/net/channel.h"
 #include "common/wire/query.h"
 #include "common/wire/session_spec.h"
+#include "common/wire/world_command.h"
 
 /// The server's methods as plain blocking calls with the domain's types. Errors are those of the
 /// server; Unavailable when it can't be reached, DeadlineExceeded when it does not answer in time.
@@ -39,6 +40,22 @@ struct StepAnswer {
   Tick tick = 0;  ///< reached
   std::uint64_t state_hash = 0;
   std::optional<wire::QueryAnswer> query;  ///< with a `status` where only the query failed
+};
+
+struct CommandAnswer {
+  Tick tick = 0;         ///< the first that shows what it did
+  std::uint32_t id = 0;  ///< of the body, obstacle or region made or changed, else 0
+  std::string lease;     ///< of SpawnBody and TakeLease
+};
+
+struct ListedBody {
+  wire::BodyInfo info;
+  wire::Kinematics state;
+  std::string driver;  ///< who holds its lease; empty: nobody
+};
+struct BodyList {
+  Tick tick = 0;
+  std::vector<ListedBody> bodies;
 };
 
 struct StateHashes {
@@ -86,6 +103,12 @@ class RemoteServer {
   absl::StatusOr<Tick> Resume(const std::string& session);
   absl::StatusOr<double> SetSpeed(const std::string& session, double speed);
   absl::StatusOr<StepAnswer> Step(const std::string& session, const StepOptions& options);
+
+  /// A command on the world; answered when it has acted. Send it again with the same request id if
+  /// the answer was lost.
+  absl::StatusOr<CommandAnswer> Command(const wire::CommandHeader& header,
+                                        const wire::WorldCommand& command);
+  absl::StatusOr<BodyList> ListBodies(const std::string& session);
 
   absl::StatusOr<StateHashes> GetStateHash(const std::string& session);
   /// The server's monotonic clock [ns].

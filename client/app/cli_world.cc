@@ -1,0 +1,223 @@
+// The commands on a session's world: spawn, bodies, drive, explode, remove.
+
+#include <cmath>
+#include <numbers>
+#include <ostream>
+#include <random>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
+#include "client/app/cli_commands.h"
+#include "client/app/cli_server.h"
+#include "client/app/json_writer.h"
+#include "common/base/check.h"
+#include "common/base/limits.h"
+#include "common/wire/body_kinds.h"
+
+namespace onesea::app {
+namespace {
+
+constexpr double kKilogramOfTntJ = 4.2e6;
+
+wire::CommandHeader HeaderFor(const SessionInfo& session, const Arguments& arguments) {
+  std::random_device random;
+  return {.session = session.name,
+          .request_id = absl::StrFormat("cli-%08x%08x", random(), random()),
+          .tick = std::nullopt,
+          .lease = arguments.Get("lease").value_or("")};
+}
+
+absl::StatusOr<std::uint32_t> BodyOperand(const Arguments& arguments) {
+  ONESEA_ASSIGN_OR_RETURN(const std::int64_t id,
+                          InUsage(ParseInteger("BODY", arguments.operands()[0], 1, 0xffffffff)));
+  return static_cast<std::uint32_t>(id);
+}
+
+absl::StatusOr<double> NumberOr(const Arguments& arguments, absl::string_view option,
+                                double otherwise, double min, double max) {
+  const std::optional<std::string> text = arguments.Get(option);
+  if (!text) return otherwise;
+  return InUsage(ParseNumber(absl::StrCat("--", option), *text, min, max));
+}
+
+absl::StatusOr<Vec2d> PlaceOption(const Arguments& arguments) {
+  const std::optional<std::string> text = arguments.Get("at");
+  if (!text) return UsageError("--at X,Y is needed, metres east and north");
+  return InUsage(ParsePlace("--at", *text));
+}
+
+void PrintDone(const CliContext& context, const SessionInfo& session,
+               const client::CommandAnswer& answer, absl::string_view what) {
+  if (context.json) {
+    JsonWriter json;
+    json.BeginObject().Key("session").Value(session.name).Key("tick").Value(answer.tick);
+    json.Key("id").Value(static_cast<std::int64_t>(answer.id)).Key("lease").Value(answer.lease);
+    context.out << json.EndObject().text() << '\n';
+    return;
+  }
+  context.out << session.name << ": " << what << " from tick " << answer.tick << '\n';
+}
+
+absl::Status RunSpawn(const CliContext& context, const Arguments& arguments) {
+  wire::SpawnBody spawn;
+  ONESEA_ASSIGN_OR_RETURN(spawn.body, InUsage(wire::BodyKind(arguments.operands()[0])));
+  ONESEA_ASSIGN_OR_RETURN(const Vec2d place, PlaceOption(arguments));
+  ONESEA_ASSIGN_OR_RETURN(const double heading_deg,
+                          NumberOr(arguments, "heading", 90.0, -360.0, 360.0));
+  if (const auto name = arguments.Get("name")) spawn.body.name = *name;
+  spawn.start.position_m = {place.x, place.y, 0.0};
+  // Headings count clockwise from north, turns counter-clockwise from east.
+  spawn.start.turn = TurnBy({0, 0, (90.0 - heading_deg) * std::numbers::pi / 180.0});
+  ONESEA_ASSIGN_OR_RETURN(const ChosenSession chosen, ChooseSession(context));
+  ONESEA_ASSIGN_OR_RETURN(const client::CommandAnswer answer,
+                          chosen.server->Command(HeaderFor(chosen.info, arguments), spawn));
+  if (!arguments.Has("no-wake")) {
+    wire::RegionSpec region;
+    region.middle_m = place;
+    region.follow_body_id = answer.id;
+    ONESEA_RETURN_IF_ERROR(
+        chosen.server->Command(HeaderFor(chosen.info, arguments), wire::AddRegion{region})
+            .status());
+  }
+  if (!arguments.Has("keep")) {
+    wire::CommandHeader header = HeaderFor(chosen.info, arguments);
+    header.lease = answer.lease;
+    ONESEA_RETURN_IF_ERROR(chosen.server->Command(header, wire::ReleaseLease{answer.id}).status());
+  }
+  PrintDone(context, chosen.info, answer,
+            arguments.Has("keep") ? absl::StrCat("body ", answer.id, ", lease ", answer.lease, ",")
+                                  : absl::StrCat("body ", answer.id));
+  return absl::OkStatus();
+}
+
+absl::Status RunBodies(const CliContext& context, const Arguments&) {
+  ONESEA_ASSIGN_OR_RETURN(const ChosenSession chosen, ChooseSession(context));
+  ONESEA_ASSIGN_OR_RETURN(const client::BodyList list, chosen.server->ListBodies(chosen.info.name));
+  if (context.json) {
+    JsonWriter json;
+    json.BeginObject().Key("session").Value(chosen.info.name).Key("tick").Value(list.tick);
+    json.Key("bodies").BeginArray();
+    for (const client::ListedBody& body : list.bodies) {
+      json.BeginObject().Key("id").Value(static_cast<std::int64_t>(body.info.id));
+      json.Key("name").Value(body.info.name).Key("driver").Value(body.driver);
+      json.Key("x_m").Value(body.state.position_m.x).Key("y_m").Value(body.state.position_m.y);
+      json.Key("z_m").Value(body.state.position_m.z);
+      json.Key("speed_m_per_s").Value(Norm(body.state.velocity_m_per_s));
+      json.EndObject();
+    }
+    context.out << json.EndArray().EndObject().text() << '\n';
+    return absl::OkStatus();
+  }
+  context.out << absl::StreamFormat("%s at tick %d: %d bodies\n", chosen.info.name, list.tick,
+                                    list.bodies.size());
+  for (const client::ListedBody& body : list.bodies) {
+    const Vec3d at = body.state.position_m;
+    context.out << absl::StreamFormat("%4d  %-12s  at %9.2f, %9.2f, %6.2f m  %5.2f m/s  %s\n",
+                                      body.info.id, body.info.name, at.x, at.y, at.z,
+                                      Norm(body.state.velocity_m_per_s), body.driver);
+  }
+  return absl::OkStatus();
+}
+
+absl::Status RunDrive(const CliContext& context, const Arguments& arguments) {
+  ONESEA_ASSIGN_OR_RETURN(const std::uint32_t body, BodyOperand(arguments));
+  ONESEA_ASSIGN_OR_RETURN(const double throttle, NumberOr(arguments, "throttle", 0.0, -1.0, 1.0));
+  ONESEA_ASSIGN_OR_RETURN(const double rudder, NumberOr(arguments, "rudder", 0.0, -1.0, 1.0));
+  ONESEA_ASSIGN_OR_RETURN(const ChosenSession chosen, ChooseSession(context));
+  ONESEA_ASSIGN_OR_RETURN(const client::CommandAnswer answer,
+                          chosen.server->Command(HeaderFor(chosen.info, arguments),
+                                                 wire::DriveBody{body, {throttle}, {rudder}}));
+  PrintDone(context, chosen.info, answer,
+            absl::StrFormat("body %d: throttle %.2f, rudder %.2f", body, throttle, rudder));
+  return absl::OkStatus();
+}
+
+absl::Status RunExplode(const CliContext& context, const Arguments& arguments) {
+  ONESEA_ASSIGN_OR_RETURN(const Vec2d place, PlaceOption(arguments));
+  ONESEA_ASSIGN_OR_RETURN(const double tnt_kg, NumberOr(arguments, "tnt", 1.0, 1e-3, 2000.0));
+  ONESEA_ASSIGN_OR_RETURN(const double depth_m, NumberOr(arguments, "depth", 1.0, 0.0, 1000.0));
+  ONESEA_ASSIGN_OR_RETURN(const ChosenSession chosen, ChooseSession(context));
+  ONESEA_ASSIGN_OR_RETURN(const client::CommandAnswer answer,
+                          chosen.server->Command(HeaderFor(chosen.info, arguments),
+                                                 wire::Explode{{place.x, place.y, -depth_m},
+                                                               tnt_kg * kKilogramOfTntJ}));
+  PrintDone(context, chosen.info, answer, "an explosion");
+  return absl::OkStatus();
+}
+
+absl::Status RunRemove(const CliContext& context, const Arguments& arguments) {
+  ONESEA_ASSIGN_OR_RETURN(const std::uint32_t body, BodyOperand(arguments));
+  ONESEA_ASSIGN_OR_RETURN(const ChosenSession chosen, ChooseSession(context));
+  ONESEA_ASSIGN_OR_RETURN(
+      const client::CommandAnswer answer,
+      chosen.server->Command(HeaderFor(chosen.info, arguments), wire::RemoveBody{body}));
+  PrintDone(context, chosen.info, answer, absl::StrCat("body ", body, " is gone"));
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+CliCommand SpawnCommand() {
+  return {.name = "spawn",
+          .operands = "KIND",
+          .operand_count = 1,
+          .summary = "puts a body afloat: boat, buoy, crate or raft",
+          .details =
+              "A region of the interaction layer follows the body, so that it leaves a wake.\n"
+              "Anybody may drive it afterwards, unless --keep.",
+          .options = {{"at", "X,Y", "where, metres east and north"},
+                      {"heading", "DEG", "of its bow, clockwise from north; default 90"},
+                      {"name", "TEXT", "default the kind"},
+                      {"no-wake", "", "no region follows it"},
+                      {"keep", "", "keep and print the lease: only who shows it may drive"}},
+          .examples = {"onesea spawn boat --at 0,0", "onesea spawn crate --at 12,3 --no-wake"},
+          .run = RunSpawn};
+}
+
+CliCommand BodiesCommand() {
+  return {.name = "bodies",
+          .operands = "",
+          .summary = "lists the bodies of a session",
+          .details = "",
+          .options = {},
+          .examples = {"onesea bodies", "onesea bodies --json"},
+          .run = RunBodies};
+}
+
+CliCommand DriveCommand() {
+  return {.name = "drive",
+          .operands = "BODY",
+          .operand_count = 1,
+          .summary = "sets throttle and rudder of a body",
+          .details = "They hold until the next drive.",
+          .options = {{"throttle", "T", "[-1, 1], default 0"},
+                      {"rudder", "R", "[-1, 1], positive turns to port; default 0"},
+                      {"lease", "TEXT", "of the body, if somebody holds it"}},
+          .examples = {"onesea drive 1 --throttle 1 --rudder 0.3"},
+          .run = RunDrive};
+}
+
+CliCommand ExplodeCommand() {
+  return {.name = "explode",
+          .operands = "",
+          .summary = "sets off an underwater explosion in a region of the interaction layer",
+          .details = "",
+          .options = {{"at", "X,Y", "where, metres east and north"},
+                      {"tnt", "KG", "default 1"},
+                      {"depth", "M", "default 1"}},
+          .examples = {"onesea explode --at 10,0 --tnt 2"},
+          .run = RunExplode};
+}
+
+CliCommand RemoveCommand() {
+  return {.name = "remove",
+          .operands = "BODY",
+          .operand_count = 1,
+          .summary = "takes a body out of a session",
+          .details = "",
+          .options = {{"lease", "TEXT", "of the body, if somebody holds it"}},
+          .examples = {"onesea remove 1"},
+          .run = RunRemove};
+}
+
+}  // namespace onesea::app

@@ -1,0 +1,95 @@
+// RemoteServer's calls on the world of a session.
+
+#include <utility>
+
+#include "client/net/remote_server_impl.h"
+#include "common/base/check.h"
+#include "common/wire/proto_body.h"
+#include "common/wire/proto_world.h"
+
+namespace onesea::client {
+namespace {
+
+template <typename Request, typename Response>
+using Method = grpc::Status (v1::OneSea::Stub::*)(grpc::ClientContext*, const Request&, Response*);
+
+Method<v1::SpawnBodyRequest, v1::SpawnBodyResponse> MethodOf(const wire::SpawnBody&) {
+  return &v1::OneSea::Stub::SpawnBody;
+}
+Method<v1::RemoveBodyRequest, v1::RemoveBodyResponse> MethodOf(const wire::RemoveBody&) {
+  return &v1::OneSea::Stub::RemoveBody;
+}
+Method<v1::DriveBodyRequest, v1::DriveBodyResponse> MethodOf(const wire::DriveBody&) {
+  return &v1::OneSea::Stub::DriveBody;
+}
+Method<v1::ApplyImpulseRequest, v1::ApplyImpulseResponse> MethodOf(const wire::ApplyImpulse&) {
+  return &v1::OneSea::Stub::ApplyImpulse;
+}
+Method<v1::ExplodeRequest, v1::ExplodeResponse> MethodOf(const wire::Explode&) {
+  return &v1::OneSea::Stub::Explode;
+}
+Method<v1::SetObstacleRequest, v1::SetObstacleResponse> MethodOf(const wire::SetObstacle&) {
+  return &v1::OneSea::Stub::SetObstacle;
+}
+Method<v1::RemoveObstacleRequest, v1::RemoveObstacleResponse> MethodOf(
+    const wire::RemoveObstacle&) {
+  return &v1::OneSea::Stub::RemoveObstacle;
+}
+Method<v1::AddRegionRequest, v1::AddRegionResponse> MethodOf(const wire::AddRegion&) {
+  return &v1::OneSea::Stub::AddRegion;
+}
+Method<v1::RemoveRegionRequest, v1::RemoveRegionResponse> MethodOf(const wire::RemoveRegion&) {
+  return &v1::OneSea::Stub::RemoveRegion;
+}
+Method<v1::TakeLeaseRequest, v1::TakeLeaseResponse> MethodOf(const wire::TakeLease&) {
+  return &v1::OneSea::Stub::TakeLease;
+}
+Method<v1::ReleaseLeaseRequest, v1::ReleaseLeaseResponse> MethodOf(const wire::ReleaseLease&) {
+  return &v1::OneSea::Stub::ReleaseLease;
+}
+
+template <typename Response>
+CommandAnswer AnswerOf(const Response& response) {
+  CommandAnswer answer;
+  answer.tick = response.tick();
+  if constexpr (requires { response.body_id(); }) answer.id = response.body_id();
+  if constexpr (requires { response.obstacle_id(); }) answer.id = response.obstacle_id();
+  if constexpr (requires { response.region_id(); }) answer.id = response.region_id();
+  if constexpr (requires { response.lease(); }) answer.lease = response.lease();
+  return answer;
+}
+
+}  // namespace
+
+absl::StatusOr<CommandAnswer> RemoteServer::Command(const wire::CommandHeader& header,
+                                                    const wire::WorldCommand& command) {
+  const auto call = [&]<typename Request, typename Response>(
+                        const auto& one,
+                        Method<Request, Response> method) -> absl::StatusOr<CommandAnswer> {
+    Request request;
+    wire::ToProto(header, request.mutable_command());
+    wire::ToProto(one, &request);
+    Response response;
+    ONESEA_RETURN_IF_ERROR(impl_->Call(method, request, &response));
+    return AnswerOf(response);
+  };
+  return std::visit([&](const auto& one) { return call(one, MethodOf(one)); }, command);
+}
+
+absl::StatusOr<BodyList> RemoteServer::ListBodies(const std::string& session) {
+  v1::ListBodiesRequest request;
+  request.set_session(session);
+  v1::ListBodiesResponse response;
+  ONESEA_RETURN_IF_ERROR(impl_->Call(&v1::OneSea::Stub::ListBodies, request, &response));
+  BodyList list;
+  list.tick = response.tick();
+  for (const v1::ListBodiesResponse::Body& body : response.bodies()) {
+    ListedBody& listed = list.bodies.emplace_back();
+    ONESEA_ASSIGN_OR_RETURN(listed.info, wire::FromProto(body.info()));
+    listed.state = wire::FromProto(body.state());
+    listed.driver = body.driver();
+  }
+  return list;
+}
+
+}  // namespace onesea::client
