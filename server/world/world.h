@@ -44,7 +44,7 @@ struct WorldView {
   Tick tick = 0;  ///< of an empty world: when it became empty
   double water_level_m = 0.0;
   std::shared_ptr<const sea::InteractionSnapshot> interaction;  ///< never null
-  std::vector<wire::BodyView> bodies;       ///< ascending ids
+  std::vector<wire::BodyView> bodies;                           ///< ascending ids
   bool empty() const { return interaction->fields.empty() && bodies.empty(); }
 };
 

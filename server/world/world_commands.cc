@@ -105,12 +105,16 @@ absl::StatusOr<std::uint32_t> World::Apply(const wire::WorldCommand& command) {
 }
 
 absl::StatusOr<std::uint32_t> World::Do(const wire::RemoveBody& command) {
-  if (!HasBody(command.body_id)) return NoBody(command.body_id);
+  const BodyState* state = rigid_.FindState(command.body_id);
+  if (state == nullptr) return NoBody(command.body_id);
+  // Its wake goes on where it was.
+  for (auto& [id, region] : regions_) {
+    if (region.follow_body_id != command.body_id) continue;
+    region.follow_body_id = 0;
+    region.middle_m = {state->pose.centre_m.x, state->pose.centre_m.y};
+  }
   ONESEA_RETURN_IF_ERROR(rigid_.Remove(command.body_id));
   bodies_.erase(command.body_id);
-  for (auto& [id, region] : regions_) {
-    if (region.follow_body_id == command.body_id) region.follow_body_id = 0;
-  }
   return command.body_id;
 }
 

@@ -228,6 +228,17 @@ TEST_F(WorldTest, ObstaclesStandStill) {
   EXPECT_LT(behind, 0.5 * before);
 }
 
+TEST_F(WorldTest, AWakeStaysWhenItsBodyGoes) {
+  const std::uint32_t boat = Spawn(Boat(), {40, 0});
+  AddRegion(Square(64, boat));
+  Run(300);
+  const sea::CellRect before = world_.view()->interaction->fields[0]->cells;
+  ASSERT_TRUE(world_.Apply(wire::RemoveBody{boat}).ok());
+  Run(5);
+  EXPECT_EQ(world_.view()->interaction->fields[0]->cells, before);
+  EXPECT_GT(std::abs(HeightAt({40, 0})), 0.01);  // the hole that it leaves
+}
+
 TEST_F(WorldTest, RemovedBodiesAreGone) {
   const std::uint32_t id = Spawn(Box({1, 1, 1}, 500.0));
   Run(10);
