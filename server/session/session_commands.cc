@@ -31,7 +31,7 @@ int SessionRunner::TicksPerAdvance() const {
 }
 
 void SessionRunner::MakeTick(std::int64_t now_ns) {
-  for (CommandQueue::Due& due : commands_.TakeDue(session_.tick() + 1)) Do(std::move(due), now_ns);
+  for (const CommandQueue::Due& due : commands_.TakeDue(session_.tick() + 1)) Do(due, now_ns);
   session_.Step();
 }
 
@@ -41,14 +41,14 @@ void SessionRunner::Command(CommandRequest request, CommandDone done, std::int64
     answered_.push_back([done, result] { done(result); });
   };
   const std::int64_t ahead_max = kAheadMaxS * session_.spec().recipe.tick_rate_hz;
-  for (CommandQueue::Due& due :
+  for (const CommandQueue::Due& due :
        commands_.Submit(std::move(request), std::move(later), session_.tick(), ahead_max)) {
-    Do(std::move(due), now_ns);
+    Do(due, now_ns);
   }
   HandOver(deferred);
 }
 
-void SessionRunner::Do(CommandQueue::Due due, std::int64_t now_ns) {
+void SessionRunner::Do(const CommandQueue::Due& due, std::int64_t now_ns) {
   commands_.Answer(due.ticket, Act(due.request, now_ns));
 }
 

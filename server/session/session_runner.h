@@ -83,7 +83,7 @@ class SessionRunner {
   void FailSteps(const absl::Status& status, Deferred& deferred);
   void MakeTick(std::int64_t now_ns);
   int TicksPerAdvance() const;
-  void Do(CommandQueue::Due due, std::int64_t now_ns);
+  void Do(const CommandQueue::Due& due, std::int64_t now_ns);
   absl::StatusOr<CommandResult> Act(const CommandRequest& request, std::int64_t now_ns);
   void HandOver(Deferred& deferred);
 
