@@ -41,7 +41,7 @@ bool IsPositive(const Mat6& a, double relative_shift) {
 absl::Status CheckMatrix(const std::string& field, const Mat6& a) {
   for (int i = 0; i < 6; ++i) {
     for (int j = 0; j < 6; ++j) {
-      const absl::Status s =
+      absl::Status s =
           CheckInRange(absl::StrCat(field, "[", i, "][", j, "]"), a[i][j], -1e15, 1e15);
       if (!s.ok()) return s;
     }
@@ -155,11 +155,11 @@ absl::Status CheckGear(const BodySpec& spec) {
     if (absl::Status s = CheckInRange("heave_memory", value, -1e15, 1e15); !s.ok()) return s;
   }
   for (std::size_t n = 0; n < spec.thrusters.size(); ++n) {
-    const absl::Status s = CheckThruster(absl::StrCat("thrusters[", n, "]"), spec.thrusters[n]);
+    absl::Status s = CheckThruster(absl::StrCat("thrusters[", n, "]"), spec.thrusters[n]);
     if (!s.ok()) return s;
   }
   for (std::size_t n = 0; n < spec.rudders.size(); ++n) {
-    const absl::Status s =
+    absl::Status s =
         CheckRudder(absl::StrCat("rudders[", n, "]"), spec.rudders[n], spec.thrusters.size());
     if (!s.ok()) return s;
   }
@@ -200,7 +200,7 @@ absl::Status ValidateBodySpec(const BodySpec& spec) {
                                                    " kg/m³"));
   }
   if (spec.centre_of_mass_m) {
-    const absl::Status s = CheckPlace("centre_of_mass_m", *spec.centre_of_mass_m);
+    absl::Status s = CheckPlace("centre_of_mass_m", *spec.centre_of_mass_m);
     if (!s.ok()) return s;
   }
   if (spec.inertia_kg_m2) {

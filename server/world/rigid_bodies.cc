@@ -56,6 +56,7 @@ std::vector<Vec3d> OutermostVertices(const TriangleMesh& mesh, Vec3d centre_m) {
     chosen.insert(best);
   }
   std::vector<Vec3d> out;
+  out.reserve(chosen.size());
   for (std::size_t n : chosen) out.push_back(mesh.vertices[n] - centre_m);
   return out;
 }

@@ -28,7 +28,7 @@ double Mobility(const RopeBody& body, Vec3d direction) {
 absl::Status ValidateRope(const RopeSpec& spec) {
   for (const RopeEnd* end : {&spec.from, &spec.to}) {
     for (double value : {end->point_m.x, end->point_m.y, end->point_m.z}) {
-      const absl::Status s =
+      absl::Status s =
           CheckInRange("rope.point_m", value, -kQueryCoordinateMaxM, kQueryCoordinateMaxM);
       if (!s.ok()) return s;
     }

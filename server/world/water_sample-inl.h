@@ -14,7 +14,9 @@ namespace onesea::world::internal {
 /// exp(-x) for x >= 0, relative error 3e-7 up to x = 10; 0 from 80 on.
 inline float ExpMinus(float x) {
   const float turns = std::min(x, 80.0f) * 1.44269504f;
-  const auto whole = static_cast<std::int32_t>(turns + 0.5f);
+  // Not lround: this must become one vector instruction, and turns >= 0.
+  const auto whole =
+      static_cast<std::int32_t>(turns + 0.5f);  // NOLINT(bugprone-incorrect-roundings)
   const float g = (turns - static_cast<float>(whole)) * -0.693147181f;  // within ±0.347
   float p = 1.0f / 720.0f;
   p = p * g + 1.0f / 120.0f;

@@ -34,8 +34,8 @@ absl::Status ValidateSolverSpec(const SolverSpec& spec) {
       !s.ok()) {
     return s;
   }
-  return CheckInRange("region.edge_cells", spec.edge_cells, 0,
-                      std::min(spec.cells.columns, spec.cells.rows) / 2);
+  const int edge_cells_max = std::min(spec.cells.columns, spec.cells.rows) / 2;
+  return CheckInRange("region.edge_cells", spec.edge_cells, 0, edge_cells_max);
 }
 
 }  // namespace onesea::world
