@@ -11,25 +11,11 @@
 namespace onesea::wire {
 namespace {
 
-constexpr double kOffsetMaxM = kHullSizeMaxM;  // of anything that is fixed to a body
-constexpr double kCoefficientMax = 1e15;       // of given matrices: keeps sums finite
-constexpr double kPi = 3.141592653589793;
+constexpr double kCoefficientMax = 1e15;  // of given matrices: keeps sums finite
 constexpr std::uint32_t kColourMax = 0xFFFFFF;
-
-absl::Status CheckOffset(std::string_view prefix, const std::string& field, Vec3d v) {
-  ONESEA_RETURN_IF_ERROR(CheckReal(prefix, field + ".x", v.x, -kOffsetMaxM, kOffsetMaxM));
-  ONESEA_RETURN_IF_ERROR(CheckReal(prefix, field + ".y", v.y, -kOffsetMaxM, kOffsetMaxM));
-  return CheckReal(prefix, field + ".z", v.z, -kOffsetMaxM, kOffsetMaxM);
-}
 
 absl::Status CheckLength(std::string_view prefix, std::string_view field, double length_m) {
   return CheckReal(prefix, field, length_m, kHullSizeMinM, kHullSizeMaxM);
-}
-
-// Half-open: 0 is refused, and so is NaN.
-absl::Status CheckPositive(std::string_view prefix, std::string_view field, double value,
-                           double max) {
-  return CheckReal(prefix, field, value, 1e-9, max);
 }
 
 absl::Status CheckShape(const std::string& prefix, const BodyShape& shape) {
@@ -51,43 +37,9 @@ absl::Status CheckShape(const std::string& prefix, const BodyShape& shape) {
   return absl::InvalidArgumentError(absl::StrCat(prefix, "kind: is none of the shapes"));
 }
 
-absl::Status CheckThruster(const std::string& prefix, const Thruster& thruster) {
-  ONESEA_RETURN_IF_ERROR(CheckOffset(prefix, "position_m", thruster.position_m));
-  ONESEA_RETURN_IF_ERROR(CheckOffset(prefix, "direction", thruster.direction));
-  ONESEA_RETURN_IF_ERROR(
-      CheckReal(prefix, "direction length", Norm(thruster.direction), 1e-6, 2.0 * kOffsetMaxM));
-  ONESEA_RETURN_IF_ERROR(CheckPositive(prefix, "diameter_m", thruster.diameter_m, 20.0));
-  ONESEA_RETURN_IF_ERROR(CheckPositive(prefix, "turns_per_s_max", thruster.turns_per_s_max, 200.0));
-  ONESEA_RETURN_IF_ERROR(CheckReal(prefix, "kt", thruster.kt, 0.0, 1.0));
-  ONESEA_RETURN_IF_ERROR(CheckReal(prefix, "kt_slope", thruster.kt_slope, 0.0, 2.0));
-  ONESEA_RETURN_IF_ERROR(CheckReal(prefix, "lag_s", thruster.lag_s, 0.0, 60.0));
-  return CheckReal(prefix, "steer_rad_max", thruster.steer_rad_max, 0.0, kPi);
-}
-
-absl::Status CheckRudder(const std::string& prefix, const Rudder& rudder, int thrusters) {
-  ONESEA_RETURN_IF_ERROR(CheckOffset(prefix, "position_m", rudder.position_m));
-  ONESEA_RETURN_IF_ERROR(CheckPositive(prefix, "area_m2", rudder.area_m2, 1000.0));
-  ONESEA_RETURN_IF_ERROR(CheckPositive(prefix, "aspect_ratio", rudder.aspect_ratio, 10.0));
-  ONESEA_RETURN_IF_ERROR(CheckPositive(prefix, "angle_rad_max", rudder.angle_rad_max, 0.5 * kPi));
-  ONESEA_RETURN_IF_ERROR(CheckReal(prefix, "lag_s", rudder.lag_s, 0.0, 60.0));
-  return CheckInteger(prefix, "behind_thruster", rudder.behind_thruster, -1, thrusters - 1);
-}
-
 absl::Status CheckForces(const std::string& prefix, const BodyDescription& body) {
-  const Drag& drag = body.drag;
-  ONESEA_RETURN_IF_ERROR(CheckReal(prefix, "drag.friction", drag.friction, 0.0, 1.0));
-  ONESEA_RETURN_IF_ERROR(CheckReal(prefix, "drag.pressure", drag.pressure, 0.0, 10.0));
-  ONESEA_RETURN_IF_ERROR(CheckReal(prefix, "drag.suction", drag.suction, 0.0, 10.0));
-  ONESEA_RETURN_IF_ERROR(CheckReal(prefix, "drag.planing", drag.planing, 0.0, 10.0));
-  const std::string wind = prefix + "windage.";
-  const Windage& windage = body.windage;
-  ONESEA_RETURN_IF_ERROR(CheckReal(wind, "frontal_area_m2", windage.frontal_area_m2, 0.0, 1e5));
-  ONESEA_RETURN_IF_ERROR(CheckReal(wind, "lateral_area_m2", windage.lateral_area_m2, 0.0, 1e5));
-  ONESEA_RETURN_IF_ERROR(
-      CheckReal(wind, "frontal_coefficient", windage.frontal_coefficient, 0.0, 5.0));
-  ONESEA_RETURN_IF_ERROR(
-      CheckReal(wind, "lateral_coefficient", windage.lateral_coefficient, 0.0, 5.0));
-  ONESEA_RETURN_IF_ERROR(CheckOffset(wind, "centre_m", windage.centre_m));
+  ONESEA_RETURN_IF_ERROR(ValidateDrag(prefix + "drag.", body.drag));
+  ONESEA_RETURN_IF_ERROR(ValidateWindage(prefix + "windage.", body.windage));
   ONESEA_RETURN_IF_ERROR(CheckReal(prefix, "contact_friction", body.contact_friction, 0.0, 2.0));
   return CheckReal(prefix, "contact_restitution", body.contact_restitution, 0.0, 1.0);
 }
@@ -139,12 +91,13 @@ absl::Status ValidateBodyDescription(const std::string& prefix, const BodyDescri
   ONESEA_RETURN_IF_ERROR(CheckSize(prefix, "thrusters", body.thrusters.size(), kThrustersMax));
   for (std::size_t n = 0; n < body.thrusters.size(); ++n) {
     ONESEA_RETURN_IF_ERROR(
-        CheckThruster(absl::StrCat(prefix, "thrusters[", n, "]."), body.thrusters[n]));
+        ValidateThruster(absl::StrCat(prefix, "thrusters[", n, "]."), body.thrusters[n]));
   }
   ONESEA_RETURN_IF_ERROR(CheckSize(prefix, "rudders", body.rudders.size(), kRuddersMax));
   for (std::size_t n = 0; n < body.rudders.size(); ++n) {
-    ONESEA_RETURN_IF_ERROR(CheckRudder(absl::StrCat(prefix, "rudders[", n, "]."), body.rudders[n],
-                                       static_cast<int>(body.thrusters.size())));
+    ONESEA_RETURN_IF_ERROR(ValidateRudder(absl::StrCat(prefix, "rudders[", n, "]."),
+                                          body.rudders[n],
+                                          static_cast<int>(body.thrusters.size())));
   }
   return absl::OkStatus();
 }

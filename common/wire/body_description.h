@@ -9,6 +9,7 @@
 #include "absl/status/status.h"
 #include "common/base/limits.h"
 #include "common/base/vec.h"
+#include "common/wire/body_gear.h"
 
 /// What a floating body is, as commands, session files and viewers say it. Body frame: x forward, y
 /// to port, z up, metres; its origin is the shape's, not the centre of mass.
@@ -32,44 +33,6 @@ struct BodyShape {
   friend bool operator==(const BodyShape&, const BodyShape&) = default;
 };
 std::uint64_t MeshHash(const std::string& mesh);
-
-struct Thruster {
-  Vec3d position_m;
-  Vec3d direction{1.0, 0.0, 0.0};  ///< of positive thrust on the body; any length but 0
-  double diameter_m = 0.3;         ///< (0, 20]
-  double turns_per_s_max = 20.0;   ///< (0, 200]
-  double kt = 0.35;                ///< thrust coefficient at the bollard, [0, 1]
-  double kt_slope = 0.4;           ///< its fall per unit of advance ratio, [0, 2]
-  double lag_s = 0.5;              ///< first order, [0, 60]
-  double steer_rad_max = 0.0;      ///< an outboard turns with the rudder command, [0, π]
-  friend bool operator==(const Thruster&, const Thruster&) = default;
-};
-
-struct Rudder {
-  Vec3d position_m;            ///< middle of the blade; its axis is z
-  double area_m2 = 0.1;        ///< (0, 1000]
-  double aspect_ratio = 1.5;   ///< (0, 10]
-  double angle_rad_max = 0.6;  ///< (0, π/2]
-  double lag_s = 0.3;          ///< first order, [0, 60]
-  int behind_thruster = -1;    ///< in whose race it stands; -1: none
-  friend bool operator==(const Rudder&, const Rudder&) = default;
-};
-
-struct Windage {
-  double frontal_area_m2 = 0.0, lateral_area_m2 = 0.0;          ///< [0, 1e5]
-  double frontal_coefficient = 0.8, lateral_coefficient = 1.0;  ///< [0, 5]
-  Vec3d centre_m;
-  friend bool operator==(const Windage&, const Windage&) = default;
-};
-
-/// Dimensionless, on rho/2.
-struct Drag {
-  double friction = 0.004;  ///< [0, 1]
-  double pressure = 0.6;    ///< where the hull moves into the water, [0, 10]
-  double suction = 0.4;     ///< where it moves away, [0, 10]
-  double planing = 0.0;     ///< [0, 10]
-  friend bool operator==(const Drag&, const Drag&) = default;
-};
 
 enum class BodyControl : std::uint8_t {
   kIntegrated = 1,  ///< moved by the server

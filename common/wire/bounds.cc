@@ -1,6 +1,7 @@
 #include "common/wire/bounds.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "absl/strings/escaping.h"
 #include "absl/strings/str_cat.h"
@@ -41,6 +42,14 @@ absl::Status CheckInteger(std::string_view prefix, std::string_view field, std::
   if (value >= min && value <= max) return absl::OkStatus();
   return absl::InvalidArgumentError(
       absl::StrCat(Text(prefix), Text(field), ": ", value, " is outside [", min, ", ", max, "]"));
+}
+
+absl::Status CheckVector(std::string_view prefix, const std::string& field, Vec3d v, double max) {
+  for (const auto& [part, value] :
+       {std::pair(".x", v.x), std::pair(".y", v.y), std::pair(".z", v.z)}) {
+    if (absl::Status s = CheckReal(prefix, field + part, value, -max, max); !s.ok()) return s;
+  }
+  return absl::OkStatus();
 }
 
 absl::Status CheckSize(std::string_view prefix, std::string_view field, std::size_t size,

@@ -7,6 +7,7 @@
 
 #include "absl/status/status.h"
 #include "absl/strings/string_view.h"
+#include "common/base/vec.h"
 
 /// Range checks of numbers that came from people or the network. Every error reads
 /// "timeline[0].sea.systems[1].hs_m: 99 is outside [0, 40]". NaN is outside of every range.
@@ -19,6 +20,9 @@ absl::Status CheckReal(std::string_view prefix, std::string_view field, double v
                        double max);
 absl::Status CheckInteger(std::string_view prefix, std::string_view field, std::int64_t value,
                           std::int64_t min, std::int64_t max);
+
+/// Each part within ±max.
+absl::Status CheckVector(std::string_view prefix, const std::string& field, Vec3d v, double max);
 
 /// `size` elements where at most `max` are allowed.
 absl::Status CheckSize(std::string_view prefix, std::string_view field, std::size_t size,

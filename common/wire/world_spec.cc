@@ -30,12 +30,6 @@ absl::Status CheckTide(const std::string& prefix, const std::vector<WaterLevel>&
 
 }  // namespace
 
-absl::Status CheckVector(const std::string& prefix, const std::string& field, Vec3d v, double max) {
-  ONESEA_RETURN_IF_ERROR(CheckReal(prefix, field + ".x", v.x, -max, max));
-  ONESEA_RETURN_IF_ERROR(CheckReal(prefix, field + ".y", v.y, -max, max));
-  return CheckReal(prefix, field + ".z", v.z, -max, max);
-}
-
 absl::Status ValidateKinematics(const std::string& prefix, const Kinematics& kinematics) {
   ONESEA_RETURN_IF_ERROR(
       CheckVector(prefix, "position_m", kinematics.position_m, kQueryCoordinateMaxM));

@@ -64,7 +64,4 @@ absl::Status ValidateKinematics(const std::string& prefix, const Kinematics& kin
 absl::Status ValidateRegionSpec(const std::string& prefix, const RegionSpec& region);
 absl::Status ValidateWorldSpec(const std::string& prefix, const WorldSpec& world);
 
-/// Each part within ±max.
-absl::Status CheckVector(const std::string& prefix, const std::string& field, Vec3d v, double max);
-
 }  // namespace onesea::wire

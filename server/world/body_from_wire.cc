@@ -9,8 +9,6 @@
 namespace onesea::world {
 namespace {
 
-Quatd TurnOf(const Quaternion& q) { return {q.w, q.x, q.y, q.z}; }
-
 std::optional<Mat6> MatrixOf(const std::optional<wire::Matrix6>& matrix) {
   if (!matrix) return std::nullopt;
   Mat6 out;
@@ -24,7 +22,7 @@ std::optional<Mat6> MatrixOf(const std::optional<wire::Matrix6>& matrix) {
 
 absl::StatusOr<BodyShape> ShapeOf(const wire::BodyShape& shape) {
   BodyShape out;
-  out.kind = static_cast<ShapeKind>(shape.kind);
+  out.kind = shape.kind;
   out.size_m = shape.size_m;
   out.radius_m = shape.radius_m;
   out.length_m = shape.length_m;
@@ -34,35 +32,14 @@ absl::StatusOr<BodyShape> ShapeOf(const wire::BodyShape& shape) {
   return out;
 }
 
-ThrusterSpec ThrusterOf(const wire::Thruster& thruster) {
-  const double length = Norm(thruster.direction);
-  return {.position_m = thruster.position_m,
-          .direction = (1.0 / length) * thruster.direction,
-          .diameter_m = thruster.diameter_m,
-          .turns_per_s_max = thruster.turns_per_s_max,
-          .kt = thruster.kt,
-          .kt_slope = thruster.kt_slope,
-          .lag_s = thruster.lag_s,
-          .steer_rad_max = thruster.steer_rad_max};
-}
-
-RudderSpec RudderOf(const wire::Rudder& rudder) {
-  return {.position_m = rudder.position_m,
-          .area_m2 = rudder.area_m2,
-          .aspect_ratio = rudder.aspect_ratio,
-          .angle_rad_max = rudder.angle_rad_max,
-          .lag_s = rudder.lag_s,
-          .behind_thruster = rudder.behind_thruster};
-}
-
 }  // namespace
 
 absl::StatusOr<BodySpec> FromWire(const wire::BodyDescription& from) {
   BodySpec spec;
   spec.name = from.name;
   spec.owner = from.owner;
-  spec.control = static_cast<BodyControl>(from.control);
-  spec.radiation = static_cast<Radiation>(from.radiation);
+  spec.control = from.control;
+  spec.radiation = from.radiation;
   ONESEA_ASSIGN_OR_RETURN(spec.shape, ShapeOf(from.shape));
   spec.mass_kg = from.mass_kg;
   spec.centre_of_mass_m = from.centre_of_mass_m;
@@ -71,14 +48,13 @@ absl::StatusOr<BodySpec> FromWire(const wire::BodyDescription& from) {
   spec.radiation_damping = MatrixOf(from.radiation_damping);
   spec.viscous_damping = MatrixOf(from.viscous_damping);
   if (from.quadratic_damping) spec.quadratic_damping = *MatrixOf(from.quadratic_damping);
-  spec.drag = {from.drag.friction, from.drag.pressure, from.drag.suction, from.drag.planing};
-  spec.windage = {from.windage.frontal_area_m2, from.windage.lateral_area_m2,
-                  from.windage.frontal_coefficient, from.windage.lateral_coefficient,
-                  from.windage.centre_m};
-  for (const wire::Thruster& thruster : from.thrusters) {
-    spec.thrusters.push_back(ThrusterOf(thruster));
+  spec.drag = from.drag;
+  spec.windage = from.windage;
+  spec.thrusters = from.thrusters;
+  for (wire::Thruster& thruster : spec.thrusters) {
+    thruster.direction = (1.0 / Norm(thruster.direction)) * thruster.direction;
   }
-  for (const wire::Rudder& rudder : from.rudders) spec.rudders.push_back(RudderOf(rudder));
+  spec.rudders = from.rudders;
   spec.contact_friction = from.contact_friction;
   spec.contact_restitution = from.contact_restitution;
   return spec;
@@ -86,7 +62,7 @@ absl::StatusOr<BodySpec> FromWire(const wire::BodyDescription& from) {
 
 BodyState FromWire(const wire::Kinematics& kinematics) {
   BodyState state;
-  state.pose = {kinematics.position_m, Normalised(TurnOf(kinematics.turn))};
+  state.pose = {kinematics.position_m, Normalised(kinematics.turn)};
   state.velocity_m_per_s = kinematics.velocity_m_per_s;
   state.spin_rad_per_s = kinematics.spin_rad_per_s;
   return state;

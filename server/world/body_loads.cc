@@ -74,7 +74,7 @@ Mat6 Added(const BodyModel& model, double immersion, double submersion) {
 }
 
 Vec6 WindForce(const BodyModel& model, const Mat3d& turn, const BodyState& state, const Air& air) {
-  const Windage& w = model.spec.windage;
+  const wire::Windage& w = model.spec.windage;
   const Vec3d at = w.centre_m - model.centre_of_mass_m;
   const Vec3d apparent = turn.TransposeTimes(air.wind_m_per_s - state.velocity_m_per_s) -
                          Cross(turn.TransposeTimes(state.spin_rad_per_s), at);
@@ -259,7 +259,7 @@ void AdvancePose(double step_s, BodyState& state) {
   state.pose.centre_m = state.pose.centre_m + step_s * state.velocity_m_per_s;
   const double rate = Norm(state.spin_rad_per_s);
   if (!(rate > 0.0)) return;
-  const Quatd turned =
+  const Quaternion turned =
       AboutAxis((1.0 / rate) * state.spin_rad_per_s, rate * step_s) * state.pose.turn;
   state.pose.turn = Normalised(turned);
 }

@@ -9,7 +9,7 @@ namespace onesea::world {
 namespace {
 
 // Slender hulls: little form drag, some lift of the bottom.
-constexpr DragCoefficients kBoatDrag{
+constexpr wire::Drag kBoatDrag{
     .friction = 0.004, .pressure = 0.25, .suction = 0.15, .planing = 0.5};
 
 // Cross-flow drag of a slender hull in sway and yaw, which the coefficients along it leave out:

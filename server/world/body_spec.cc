@@ -10,17 +10,7 @@
 namespace onesea::world {
 namespace {
 
-constexpr int kNameBytesMax = 64;
 constexpr double kDensityMaxKgPerM3 = 25'000.0;
-
-absl::Status CheckPlace(const std::string& field, Vec3d v) {
-  for (double value : {v.x, v.y, v.z}) {
-    if (absl::Status s = CheckInRange(field, value, -kHullSizeMaxM, kHullSizeMaxM); !s.ok()) {
-      return s;
-    }
-  }
-  return absl::OkStatus();
-}
 
 // Cholesky's pivots of a + shift: all positive, so no direction has negative energy.
 bool IsPositive(const Mat6& a, double relative_shift) {
@@ -100,48 +90,15 @@ absl::Status CheckInertia(const Mat3d& inertia) {
   return absl::OkStatus();
 }
 
-absl::Status CheckThruster(const std::string& field, const ThrusterSpec& t) {
-  for (const absl::Status& s :
-       {CheckPlace(field + ".position_m", t.position_m),
-        CheckInRange(field + ".direction (its length)", Norm(t.direction), 0.999, 1.001),
-        CheckAbove(field + ".diameter_m", t.diameter_m, 0.0, 20.0),
-        CheckAbove(field + ".turns_per_s_max", t.turns_per_s_max, 0.0, 200.0),
-        CheckInRange(field + ".kt", t.kt, 0.0, 1.0),
-        CheckInRange(field + ".kt_slope", t.kt_slope, 0.0, 2.0),
-        CheckInRange(field + ".lag_s", t.lag_s, 0.0, 60.0),
-        CheckInRange(field + ".steer_rad_max", t.steer_rad_max, 0.0, sea::kPi)}) {
-    if (!s.ok()) return s;
-  }
-  return absl::OkStatus();
-}
-
-absl::Status CheckRudder(const std::string& field, const RudderSpec& r, std::size_t thrusters) {
-  for (const absl::Status& s :
-       {CheckPlace(field + ".position_m", r.position_m),
-        CheckAbove(field + ".area_m2", r.area_m2, 0.0, 1000.0),
-        CheckAbove(field + ".aspect_ratio", r.aspect_ratio, 0.0, 10.0),
-        CheckAbove(field + ".angle_rad_max", r.angle_rad_max, 0.0, 0.5 * sea::kPi),
-        CheckInRange(field + ".lag_s", r.lag_s, 0.0, 60.0),
-        CheckInRange(field + ".behind_thruster", r.behind_thruster, -1,
-                     static_cast<double>(thrusters) - 1)}) {
-    if (!s.ok()) return s;
-  }
-  return absl::OkStatus();
+// The direction must be a unit vector here; the rest is as in descriptions.
+absl::Status CheckThruster(const std::string& field, const wire::Thruster& t) {
+  if (absl::Status s = wire::ValidateThruster(field + ".", t); !s.ok()) return s;
+  return CheckInRange(field + ".direction (its length)", Norm(t.direction), 0.999, 1.001);
 }
 
 absl::Status CheckGear(const BodySpec& spec) {
-  const DragCoefficients& d = spec.drag;
-  const Windage& w = spec.windage;
   for (const absl::Status& s :
-       {CheckInRange("drag.friction", d.friction, 0.0, 1.0),
-        CheckInRange("drag.pressure", d.pressure, 0.0, 10.0),
-        CheckInRange("drag.suction", d.suction, 0.0, 10.0),
-        CheckInRange("drag.planing", d.planing, 0.0, 10.0),
-        CheckInRange("windage.frontal_area_m2", w.frontal_area_m2, 0.0, 1e5),
-        CheckInRange("windage.lateral_area_m2", w.lateral_area_m2, 0.0, 1e5),
-        CheckInRange("windage.frontal_coefficient", w.frontal_coefficient, 0.0, 5.0),
-        CheckInRange("windage.lateral_coefficient", w.lateral_coefficient, 0.0, 5.0),
-        CheckPlace("windage.centre_m", w.centre_m),
+       {wire::ValidateDrag("drag.", spec.drag), wire::ValidateWindage("windage.", spec.windage),
         CheckInRange("contact_friction", spec.contact_friction, 0.0, 2.0),
         CheckInRange("contact_restitution", spec.contact_restitution, 0.0, 1.0),
         CheckInRange("thrusters (count)", static_cast<double>(spec.thrusters.size()), 0,
@@ -159,8 +116,8 @@ absl::Status CheckGear(const BodySpec& spec) {
     if (!s.ok()) return s;
   }
   for (std::size_t n = 0; n < spec.rudders.size(); ++n) {
-    absl::Status s =
-        CheckRudder(absl::StrCat("rudders[", n, "]"), spec.rudders[n], spec.thrusters.size());
+    absl::Status s = wire::ValidateRudder(absl::StrCat("rudders[", n, "]."), spec.rudders[n],
+                                          static_cast<int>(spec.thrusters.size()));
     if (!s.ok()) return s;
   }
   return absl::OkStatus();
@@ -169,9 +126,9 @@ absl::Status CheckGear(const BodySpec& spec) {
 absl::Status CheckNames(const BodySpec& spec) {
   for (const auto& [field, value] :
        {std::pair("name", &spec.name), std::pair("owner", &spec.owner)}) {
-    if (value->size() > kNameBytesMax) {
+    if (value->size() > kBodyNameLengthMax) {
       return absl::InvalidArgumentError(
-          absl::StrCat(field, " has ", value->size(), " bytes, at most ", kNameBytesMax));
+          absl::StrCat(field, " has ", value->size(), " bytes, at most ", kBodyNameLengthMax));
     }
   }
   if (spec.control != BodyControl::kIntegrated && spec.control != BodyControl::kByOwner) {
@@ -200,7 +157,7 @@ absl::Status ValidateBodySpec(const BodySpec& spec) {
                                                    " kg/m³"));
   }
   if (spec.centre_of_mass_m) {
-    absl::Status s = CheckPlace("centre_of_mass_m", *spec.centre_of_mass_m);
+    absl::Status s = wire::CheckOffset("", "centre_of_mass_m", *spec.centre_of_mass_m);
     if (!s.ok()) return s;
   }
   if (spec.inertia_kg_m2) {

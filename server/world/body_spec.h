@@ -8,6 +8,7 @@
 
 #include "absl/status/statusor.h"
 #include "common/sea/constants.h"
+#include "common/wire/body_description.h"
 #include "server/world/hydrostatics.h"
 #include "server/world/propulsion.h"
 #include "server/world/radiation_memory.h"
@@ -16,38 +17,16 @@
 /// What a floating body is.
 namespace onesea::world {
 
-enum class ShapeKind : std::uint8_t {
-  kBox = 1,
-  kSphere = 2,
-  kCylinder = 3,  ///< axis along z
-  kCapsule = 4,   ///< axis along x
-  kMesh = 5,
-};
+using wire::BodyControl;
+using wire::Radiation;
+using wire::ShapeKind;
+
 struct BodyShape {
   ShapeKind kind = ShapeKind::kBox;
   Vec3d size_m{1.0, 1.0, 1.0};  ///< of a box
   double radius_m = 0.5;        ///< of round ones
   double length_m = 1.0;        ///< of a cylinder, and of a capsule without its ends
   TriangleMesh mesh{};          ///< of kMesh
-};
-
-/// Wind on what is above the water: F = rho/2 c A |V| V by component, V the apparent wind at the
-/// centre in body axes.
-struct Windage {
-  double frontal_area_m2 = 0.0, lateral_area_m2 = 0.0;  ///< [0, 1e5]
-  double frontal_coefficient = 0.8;                     ///< [0, 5]
-  double lateral_coefficient = 1.0;                     ///< [0, 5]
-  Vec3d centre_m{};                                     ///< body frame
-};
-
-enum class BodyControl : std::uint8_t {
-  kIntegrated = 1,  ///< moved here
-  kByOwner = 2,     ///< its owner streams poses; here it floats, makes waves and is collided with
-};
-/// Waves that a body makes carry energy away. That is counted once.
-enum class Radiation : std::uint8_t {
-  kCoefficients = 1,  ///< by radiation_damping or radiation_memory; the grid must not act back
-  kGrid = 2,          ///< by the wake in the interaction layer; both are left out here
 };
 
 struct BodySpec {
@@ -73,10 +52,10 @@ struct BodySpec {
   Mat6 quadratic_damping{};
   /// Heave radiation with memory in place of radiation_damping's heave; empty: none.
   RadiationKernel heave_memory;
-  DragCoefficients drag;
-  Windage windage;
-  std::vector<ThrusterSpec> thrusters;
-  std::vector<RudderSpec> rudders;
+  wire::Drag drag;
+  wire::Windage windage;
+  std::vector<wire::Thruster> thrusters;
+  std::vector<wire::Rudder> rudders;
   double contact_friction = 0.4;     ///< [0, 2]
   double contact_restitution = 0.1;  ///< [0, 1]
 };

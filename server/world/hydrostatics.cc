@@ -9,7 +9,7 @@ namespace onesea::world {
 Hydrostatics FloatUpright(const WetHull& hull, double mass_kg, double density_kg_per_m3) {
   WetScratch scratch;
   const WaterPatch calm;
-  const auto at = [&](double height_m, Quatd turn) {
+  const auto at = [&](double height_m, Quaternion turn) {
     return hull.Evaluate({.pose = {{0.0, 0.0, height_m}, turn}}, calm, density_kg_per_m3, {},
                          scratch);
   };

@@ -37,11 +37,11 @@ absl::Status ValidateDrive(const DriveCommand& command) {
   return absl::OkStatus();
 }
 
-void AdvanceDrive(std::span<const ThrusterSpec> thrusters, std::span<const RudderSpec> rudders,
+void AdvanceDrive(std::span<const wire::Thruster> thrusters, std::span<const wire::Rudder> rudders,
                   const DriveCommand& command, double step_s, DriveState& state) {
   const auto cut = [](double value) { return std::clamp(value, -1.0, 1.0); };
   for (std::size_t n = 0; n < thrusters.size(); ++n) {
-    const ThrusterSpec& t = thrusters[n];
+    const wire::Thruster& t = thrusters[n];
     Follow(cut(command.throttle[n]) * t.turns_per_s_max, t.lag_s, step_s, state.turns_per_s[n]);
     Follow(-cut(command.rudder[0]) * t.steer_rad_max, t.lag_s, step_s, state.steer_rad[n]);
   }
@@ -51,8 +51,8 @@ void AdvanceDrive(std::span<const ThrusterSpec> thrusters, std::span<const Rudde
   }
 }
 
-PropulsionForces Propel(std::span<const ThrusterSpec> thrusters,
-                        std::span<const RudderSpec> rudders, const DriveState& state,
+PropulsionForces Propel(std::span<const wire::Thruster> thrusters,
+                        std::span<const wire::Rudder> rudders, const DriveState& state,
                         Vec3d centre_of_mass_m, const Pose& pose, Vec3d velocity_m_per_s,
                         Vec3d spin_rad_per_s, const WaterSampler& water, double density_kg_per_m3) {
   const Mat3d turn = ToMatrix(pose.turn);
@@ -70,7 +70,7 @@ PropulsionForces Propel(std::span<const ThrusterSpec> thrusters,
 
   std::array<double, kThrustersMax> race_m_per_s{};  // added to the flow behind the disc
   for (std::size_t n = 0; n < thrusters.size(); ++n) {
-    const ThrusterSpec& t = thrusters[n];
+    const wire::Thruster& t = thrusters[n];
     const Vec3d at = t.position_m - centre_of_mass_m;
     const WaterPoint point = SampleWater(water, pose.centre_m + turn * at);
     const Vec3d direction = TurnedAboutZ(t.direction, state.steer_rad[n]);
@@ -86,7 +86,7 @@ PropulsionForces Propel(std::span<const ThrusterSpec> thrusters,
     }
   }
   for (std::size_t n = 0; n < rudders.size(); ++n) {
-    const RudderSpec& r = rudders[n];
+    const wire::Rudder& r = rudders[n];
     const Vec3d at = r.position_m - centre_of_mass_m;
     const WaterPoint point = SampleWater(water, pose.centre_m + turn * at);
     Vec3d flow = -1.0 * relative(at, point);  // of the water past the blade

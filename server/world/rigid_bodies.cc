@@ -12,6 +12,7 @@
 #include "common/base/check.h"
 #include "common/base/limits.h"
 #include "common/base/range_check.h"
+#include "common/wire/bounds.h"
 
 namespace onesea::world {
 namespace {
@@ -218,8 +219,8 @@ class RigidBodies::Contacts {
     body.setAngularVelocity(ToBullet(object.spin));
   }
 
-  static Vec3d MeanSpin(const Quatd& from, const Quatd& to, double step_s) {
-    Quatd d = to * Quatd{from.w, -from.x, -from.y, -from.z};
+  static Vec3d MeanSpin(const Quaternion& from, const Quaternion& to, double step_s) {
+    Quaternion d = to * Quaternion{from.w, -from.x, -from.y, -from.z};
     if (d.w < 0.0) d = {-d.w, -d.x, -d.y, -d.z};
     const Vec3d axis{d.x, d.y, d.z};
     const double sine = Norm(axis);
@@ -260,23 +261,16 @@ RigidBodies::~RigidBodies() = default;
 
 namespace {
 
-absl::Status CheckVector(const std::string& field, Vec3d v, double limit) {
-  for (double value : {v.x, v.y, v.z}) {
-    if (absl::Status s = CheckInRange(field, value, -limit, limit); !s.ok()) return s;
-  }
-  return absl::OkStatus();
-}
+using wire::CheckVector;
 
 absl::Status CheckMotion(const Pose& pose, Vec3d velocity_m_per_s, Vec3d spin_rad_per_s) {
   for (const absl::Status& s :
-       {CheckVector("pose.centre_m", pose.centre_m, kQueryCoordinateMaxM),
-        CheckVector("velocity_m_per_s", velocity_m_per_s, kBodySpeedMaxMPerS),
-        CheckVector("spin_rad_per_s", spin_rad_per_s, kBodySpinMaxRadPerS)}) {
+       {CheckVector("", "pose.centre_m", pose.centre_m, kQueryCoordinateMaxM),
+        CheckVector("", "velocity_m_per_s", velocity_m_per_s, kBodySpeedMaxMPerS),
+        CheckVector("", "spin_rad_per_s", spin_rad_per_s, kBodySpinMaxRadPerS)}) {
     if (!s.ok()) return s;
   }
-  const Quatd& q = pose.turn;
-  return CheckInRange("pose.turn (its norm)",
-                      std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z), 0.9, 1.1);
+  return CheckInRange("pose.turn (its norm)", std::sqrt(Dot(pose.turn, pose.turn)), 0.9, 1.1);
 }
 
 absl::Status NoBody(BodyId id) { return absl::NotFoundError(absl::StrCat("no body ", id)); }
@@ -334,8 +328,9 @@ absl::Status RigidBodies::SetDrive(BodyId id, const DriveCommand& command) {
 absl::Status RigidBodies::ApplyImpulse(BodyId id, Vec3d impulse_n_s, Vec3d place_m) {
   Entry* entry = Find(id);
   if (entry == nullptr) return NoBody(id);
-  if (absl::Status s = CheckVector("impulse_n_s", impulse_n_s, kBodyForceMaxN); !s.ok()) return s;
-  if (absl::Status s = CheckVector("place_m", place_m, kQueryCoordinateMaxM); !s.ok()) return s;
+  if (absl::Status s = CheckVector("", "impulse_n_s", impulse_n_s, kBodyForceMaxN); !s.ok())
+    return s;
+  if (absl::Status s = CheckVector("", "place_m", place_m, kQueryCoordinateMaxM); !s.ok()) return s;
   if (!world::ApplyImpulse(*entry->model, impulse_n_s, place_m, entry->state)) {
     return absl::InvalidArgumentError("impulse_n_s is too large for this body");
   }

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "common/base/quaternion.h"
 #include "common/base/real_math.h"
 #include "common/base/vec.h"
 
@@ -44,42 +45,25 @@ struct Mat3d {
   friend bool operator==(const Mat3d&, const Mat3d&) = default;
 };
 
-/// Unit quaternion, body to world.
-struct Quatd {
-  double w = 1.0, x = 0.0, y = 0.0, z = 0.0;
-  friend bool operator==(const Quatd&, const Quatd&) = default;
-};
-
-inline bool IsFinite(const Quatd& q) {
+inline bool IsFinite(const Quaternion& q) {
   return std::isfinite(q.w) && std::isfinite(q.x) && std::isfinite(q.y) && std::isfinite(q.z);
 }
-/// Identity where the norm is zero or not finite.
-inline Quatd Normalised(const Quatd& q) {
-  const double norm = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
-  if (!(norm > 1e-12) || !std::isfinite(norm)) return {};
-  return {q.w / norm, q.x / norm, q.y / norm, q.z / norm};
-}
-inline Quatd operator*(const Quatd& a, const Quatd& b) {
-  return {
-      a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z, a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
-      a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x, a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
-}
-inline Mat3d ToMatrix(const Quatd& q) {
+inline Mat3d ToMatrix(const Quaternion& q) {
   return {
       {1 - 2 * (q.y * q.y + q.z * q.z), 2 * (q.x * q.y - q.w * q.z), 2 * (q.x * q.z + q.w * q.y),
        2 * (q.x * q.y + q.w * q.z), 1 - 2 * (q.x * q.x + q.z * q.z), 2 * (q.y * q.z - q.w * q.x),
        2 * (q.x * q.z - q.w * q.y), 2 * (q.y * q.z + q.w * q.x), 1 - 2 * (q.x * q.x + q.y * q.y)}};
 }
 /// Rotation by `angle_rad` about the unit vector `axis`, counter-clockwise seen from its tip.
-inline Quatd AboutAxis(Vec3d axis, double angle_rad) {
+inline Quaternion AboutAxis(Vec3d axis, double angle_rad) {
   const real::SinCosPair half = real::SinCos(0.5 * angle_rad);
   return {half.cos, half.sin * axis.x, half.sin * axis.y, half.sin * axis.z};
 }
 
 /// Where a body is: its centre of mass and its turn.
 struct Pose {
-  Vec3d centre_m;  ///< centre of mass, world
-  Quatd turn;      ///< body to world
+  Vec3d centre_m;   ///< centre of mass, world
+  Quaternion turn;  ///< body to world
   friend bool operator==(const Pose&, const Pose&) = default;
 };
 

@@ -26,7 +26,7 @@ Corner OnSurface(const Corner& a, const Corner& b, double share) {
 // Everything per rho g (pressure) or rho/2 (drag) while it is summed.
 struct WetHull::Sums {
   Vec3d up;  // in body axes
-  DragCoefficients drag;
+  wire::Drag drag;
 
   Vec3d pressure_force, pressure_torque;
   Vec3d drag_force, drag_torque;
@@ -201,7 +201,7 @@ void WetHull::AddClipped(std::uint32_t triangle, const WetScratch& scratch, Sums
 }
 
 WetForces WetHull::Evaluate(const HullMotion& motion, const WaterPatch& water,
-                            double density_kg_per_m3, const DragCoefficients& drag,
+                            double density_kg_per_m3, const wire::Drag& drag,
                             WetScratch& scratch) const {
   const Mat3d turn = ToMatrix(motion.pose.turn);
   const Vec3d velocity = turn.TransposeTimes(motion.velocity_m_per_s);

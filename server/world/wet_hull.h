@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "common/wire/body_gear.h"
 #include "server/world/hull.h"
 #include "server/world/rigid_math.h"
 #include "server/world/water_patch.h"
@@ -16,17 +17,6 @@
 /// integrated exactly for linear variation over each piece. In calm water that is exact: force and
 /// torque are those of the displaced polyhedron. Drag and planing lift act on the same pieces.
 namespace onesea::world {
-
-/// Of the pieces' velocity relative to the water's own; all dimensionless, on rho/2.
-///   normal      -(c |w_n| + lift |w|) w_n n   per area; c = pressure where the piece moves into
-///               the water, suction where it moves away; lift only where it moves in
-///   tangential  -friction |w| w_t             per area
-struct DragCoefficients {
-  double friction = 0.004;  ///< [0, 1]; the ITTC line gives 0.002-0.004 for boats
-  double pressure = 0.6;    ///< [0, 10]; a flat plate's front has about 0.8
-  double suction = 0.4;     ///< [0, 10]; and its back 0.4
-  double planing = 0.0;     ///< [0, 10]; flat bottoms at a small angle a: near 0.5 π, lift ~ a V²
-};
 
 /// Where the hull is and how it moves; spin about the centre of mass, all in the world frame.
 struct HullMotion {
@@ -58,7 +48,7 @@ class WetHull {
   /// Cost: some 35 ns a wetted triangle with nine bands, 21 in calm water; allocates only when
   /// `scratch` meets its largest hull yet.
   WetForces Evaluate(const HullMotion& motion, const WaterPatch& water, double density_kg_per_m3,
-                     const DragCoefficients& drag, WetScratch& scratch) const;
+                     const wire::Drag& drag, WetScratch& scratch) const;
 
   /// Farthest vertex from the centre of mass.
   double radius_m() const { return radius_m_; }

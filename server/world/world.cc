@@ -18,7 +18,7 @@ constexpr double kPressLagS = 5.0;
 constexpr double kFoamSpeedMPerS = 1.5, kFullFoamSpeedMPerS = 8.0;
 
 // Turned about the vertical alone, as the body is.
-Quatd HeadingOf(const Quatd& turn) {
+Quaternion HeadingOf(const Quaternion& turn) {
   const double norm = std::sqrt(turn.w * turn.w + turn.z * turn.z);
   if (!(norm > 1e-9)) return {};
   return {turn.w / norm, 0.0, 0.0, turn.z / norm};
@@ -228,11 +228,10 @@ void World::Publish() {
   view->interaction = layer_.Snapshot(tick_, true);
   for (const auto& [id, body] : bodies_) {
     const BodyState& state = *rigid_.FindState(id);
-    const Quatd& q = state.pose.turn;
     wire::BodyView& out = view->bodies.emplace_back();
     out.state.id = id;
     out.state.position_m = state.pose.centre_m;
-    out.state.turn = {q.w, q.x, q.y, q.z};
+    out.state.turn = state.pose.turn;
     out.state.velocity_m_per_s = state.velocity_m_per_s;
     out.state.spin_rad_per_s = state.spin_rad_per_s;
     if (body.model->spec.control == BodyControl::kByOwner) out.state.flags |= wire::kBodyByOwner;

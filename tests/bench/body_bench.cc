@@ -30,7 +30,7 @@ WaterPatch Sea(int bands) {
 
 // The usual way: every triangle by itself, its corners sampled anew, libm's exp.
 Vec3d ScalarForce(const TriangleMesh& mesh, const HullMotion& motion, const WaterPatch& patch,
-                  const DragCoefficients& drag) {
+                  const wire::Drag& drag) {
   const Mat3d turn = ToMatrix(motion.pose.turn);
   Vec3d total;
   for (const auto& t : mesh.triangles) {

@@ -101,7 +101,7 @@ TEST(BodySpec, SphereHasItsAddedMass) {
 }
 
 TEST(Propulsion, LagsAndPullsAsItsCurveSays) {
-  const ThrusterSpec thruster{.diameter_m = 0.5, .turns_per_s_max = 10, .lag_s = 2};
+  const wire::Thruster thruster{.diameter_m = 0.5, .turns_per_s_max = 10, .lag_s = 2};
   DriveCommand command;
   command.throttle[0] = 5;  // cut at 1
   DriveState state;
@@ -121,7 +121,7 @@ TEST(Propulsion, LagsAndPullsAsItsCurveSays) {
 
 // Fujii's slope at a small angle, side and sign: positive turns the boat to port.
 TEST(Propulsion, RudderLiftsAsItsAspectRatioSays) {
-  const RudderSpec rudder{.position_m = {-3, 0, -1}, .area_m2 = 0.2, .aspect_ratio = 1.5};
+  const wire::Rudder rudder{.position_m = {-3, 0, -1}, .area_m2 = 0.2, .aspect_ratio = 1.5};
   DriveState state;
   state.rudder_rad[0] = 0.1;
   const WaterPatch calm;

@@ -22,7 +22,7 @@ namespace {
 using sea::kGravity;
 using sea::kPi;
 constexpr double kRho = 1000.0;
-const DragCoefficients kNoDrag{0, 0, 0, 0};
+const wire::Drag kNoDrag{0, 0, 0, 0};
 
 WetForces At(const WetHull& hull, Pose pose, const WaterPatch& water = {}) {
   WetScratch scratch;
@@ -56,7 +56,8 @@ TEST(WetHull, PressureIsTheWeightOfTheDisplacedWater) {
     const Vec3d centre{0.3, -0.1, 0.2};
     const WetHull hull(mesh, centre);
     for (int n = 0; n < 20; ++n) {
-      const Quatd turn = Normalised({std::cos(1.0 + n), std::sin(2.0 * n), std::cos(3.0 * n), 0.4});
+      const Quaternion turn =
+          Normalised({std::cos(1.0 + n), std::sin(2.0 * n), std::cos(3.0 * n), 0.4});
       const Pose pose{{5.0, -7.0, -2.0 + 0.2 * n}, turn};
       const WetForces got = At(hull, pose);
       const Vec3d force = ToMatrix(turn) * got.pressure_force_n;
@@ -250,7 +251,7 @@ TEST(WaterPatch, ABandWithoutDecayLiftsTheWholeColumn) {
 TEST(WetHull, DragIsQuadraticAndRelative) {
   const WetHull plate(BoxMesh({0.01, 2, 1}), {});
   WetScratch scratch;
-  const auto drag = [&](Vec3d velocity, Vec3d current, DragCoefficients c) {
+  const auto drag = [&](Vec3d velocity, Vec3d current, wire::Drag c) {
     WaterPatch water;
     water.current_m_per_s = current;
     return plate
