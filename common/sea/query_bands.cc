@@ -49,12 +49,7 @@ HWY_INLINE void ReadRegular(const QueryGrids& grids, Block& block) {
 void BandBlockTarget(const QueryGrids& grids, std::span<const Vec2d> points,
                      std::span<const SurfaceSample> samples, float* out) {
   Block block;
-  LoadPoints(grids, points, block);
-  for (std::size_t n = 0; n < block.padded; ++n) {
-    const SurfaceSample& sample = samples[HWY_MIN(n, points.size() - 1)];
-    block.d_x[n] = sample.displacement_x_m;
-    block.d_y[n] = sample.displacement_y_m;
-  }
+  LoadSolved(grids, points, samples, block);
   const std::size_t stride = 4 * static_cast<std::size_t>(BandCount(grids));
   const auto put = [&](std::size_t band, std::size_t element, const float* values) {
     for (std::size_t n = 0; n < block.count; ++n) out[n * stride + 4 * band + element] = values[n];

@@ -89,6 +89,17 @@ HWY_INLINE void LoadPoints(const QueryGrids& grids, std::span<const Vec2d> point
   }
 }
 
+// The points, with the displacements that were found for them.
+HWY_INLINE void LoadSolved(const QueryGrids& grids, std::span<const Vec2d> points,
+                           std::span<const SurfaceSample> samples, Block& block) {
+  LoadPoints(grids, points, block);
+  for (std::size_t n = 0; n < block.padded; ++n) {
+    const SurfaceSample& sample = samples[HWY_MIN(n, points.size() - 1)];
+    block.d_x[n] = sample.displacement_x_m;
+    block.d_y[n] = sample.displacement_y_m;
+  }
+}
+
 // Cell of x - d in one cascade and the place in it.
 HWY_INLINE void PlaceInCells(const QueryCascade& cascade, const Block& block, CascadeBlock& to) {
   const D d;

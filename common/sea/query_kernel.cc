@@ -133,12 +133,7 @@ void SolveBlock(const QueryGrids& grids, std::span<const Vec2d> points,
 void FinishBlockTarget(const QueryGrids& grids, std::span<const Vec2d> points,
                        std::span<SurfaceSample> out) {
   Block block;
-  LoadPoints(grids, points, block);
-  for (std::size_t n = 0; n < block.padded; ++n) {
-    const SurfaceSample& sample = out[HWY_MIN(n, points.size() - 1)];
-    block.d_x[n] = sample.displacement_x_m;
-    block.d_y[n] = sample.displacement_y_m;
-  }
+  LoadSolved(grids, points, out, block);
   ReadSpline(grids, block);
   const bool velocity = grids.detail == QueryDetail::kVelocity;
   if (velocity) ReadVelocity(grids, block);

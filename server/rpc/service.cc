@@ -11,18 +11,13 @@
 #include "common/wire/proto_query.h"
 #include "common/wire/proto_sea.h"
 #include "common/wire/proto_session.h"
+#include "server/rpc/answer.h"
 #include "server/rpc/status_map.h"
 #include "server/rpc/step_session.h"
 #include "server/rpc/stream_queries.h"
 
 namespace onesea::server {
 namespace {
-
-grpc::ServerUnaryReactor* Answer(grpc::CallbackServerContext* context, const absl::Status& status) {
-  grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
-  reactor->Finish(ToGrpc(status));
-  return reactor;
-}
 
 // Runs `work` on `worker` and answers with its status.
 grpc::ServerUnaryReactor* AnswerLater(grpc::CallbackServerContext* context, Worker& worker,

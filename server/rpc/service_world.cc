@@ -5,17 +5,12 @@
 #include "common/base/check.h"
 #include "common/wire/proto_body.h"
 #include "common/wire/proto_world.h"
+#include "server/rpc/answer.h"
 #include "server/rpc/service.h"
 #include "server/rpc/status_map.h"
 
 namespace onesea::server {
 namespace {
-
-grpc::ServerUnaryReactor* Answer(grpc::CallbackServerContext* context, const absl::Status& status) {
-  grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
-  reactor->Finish(ToGrpc(status));
-  return reactor;
-}
 
 // Gives a command to its session and answers when it has acted.
 template <typename Request, typename Response>

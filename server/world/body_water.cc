@@ -42,7 +42,7 @@ std::size_t BodyWater::Add(Vec2d centre_m, double radius_m) {
   return count_++;
 }
 
-void BodyWater::Fill(const IncidentSea& sea, std::span<const float> interaction_m) {
+void BodyWater::Fill(const IncidentSea& sea, std::span<const double> interaction_m) {
   ONESEA_CHECK(interaction_m.empty() || interaction_m.size() == points_m_.size());
   if (sea.waves != nullptr) {
     ONESEA_CHECK(sea.wavenumber_rad_per_m.size() == static_cast<std::size_t>(sea.waves->bands()));
@@ -52,7 +52,7 @@ void BodyWater::Fill(const IncidentSea& sea, std::span<const float> interaction_
   for (std::size_t n = 0; n < count_; ++n) FillOne(sea, interaction_m, places_[n]);
 }
 
-void BodyWater::FillOne(const IncidentSea& sea, std::span<const float> interaction_m,
+void BodyWater::FillOne(const IncidentSea& sea, std::span<const double> interaction_m,
                         Place& place) const {
   const std::size_t sea_bands = sea.waves == nullptr ? 0 : sea.wavenumber_rad_per_m.size();
   WaterPatch& patch = place.patch;
@@ -75,7 +75,7 @@ void BodyWater::FillOne(const IncidentSea& sea, std::span<const float> interacti
     for (std::size_t b = 0; b < sea_bands; ++b) height_m += from[4 * b];
     std::copy(from, from + 4 * sea_bands, to);
     to += 4 * sea_bands;
-    to[0] = interaction_m.empty() ? 0.0f : interaction_m[place.first_point + n];
+    to[0] = interaction_m.empty() ? 0.0f : static_cast<float>(interaction_m[place.first_point + n]);
     to[1] = to[2] = to[3] = 0.0f;
     place.incident.height_m[n] = static_cast<float>(height_m);
   }

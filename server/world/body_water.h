@@ -35,7 +35,7 @@ class BodyWater {
   /// Fills the patches. `interaction_m`: height of the interaction layer at points_m(), or none.
   /// That band is taken not to fade with depth: its pressure is what the grid was given.
   /// Cost: some 0.5 µs a sample.
-  void Fill(const IncidentSea& sea, std::span<const float> interaction_m);
+  void Fill(const IncidentSea& sea, std::span<const double> interaction_m);
 
   const WaterPatch& patch(std::size_t body) const { return places_[body].patch; }
   /// Height of the incident sea and the level, without the interaction layer.
@@ -48,7 +48,7 @@ class BodyWater {
     WaterPatch patch{};
     HeightPatch incident{};
   };
-  void FillOne(const IncidentSea& sea, std::span<const float> interaction_m, Place& place) const;
+  void FillOne(const IncidentSea& sea, std::span<const double> interaction_m, Place& place) const;
 
   std::vector<Place> places_;  // never shrinks; the first count_ are in use
   std::size_t count_ = 0;

@@ -95,30 +95,29 @@ void ConvolveStrips(const WavePlane& in, const IwaveTaps& taps, const ConvolveRa
   }
 }
 
-void WeighRange(const WavePlane& in, const float* weight, const ConvolveRange& range,
-                WavePlane& out) {
+// out = in times weight, or that added to it.
+template <bool kAdd>
+HWY_INLINE void WeighInto(const WavePlane& in, const float* weight, const ConvolveRange& range,
+                          WavePlane& out) {
   const D d;
   const std::size_t pitch = PackedCells(range) / (range.last_row - range.first_row);
   for (int y = range.first_row; y < range.last_row; ++y, weight += pitch) {
     for (int x = range.first_column; x < range.last_column; x += static_cast<int>(hn::Lanes(d))) {
-      const V value =
-          hn::Mul(hn::Load(d, in.Row(y) + x), hn::Load(d, weight + x - range.first_column));
+      V value = hn::Mul(hn::Load(d, in.Row(y) + x), hn::Load(d, weight + x - range.first_column));
+      if constexpr (kAdd) value = hn::Add(hn::Load(d, out.Row(y) + x), value);
       hn::Store(value, d, out.Row(y) + x);
     }
   }
 }
 
+void WeighRange(const WavePlane& in, const float* weight, const ConvolveRange& range,
+                WavePlane& out) {
+  WeighInto<false>(in, weight, range, out);
+}
+
 void AddWeighedRange(const WavePlane& in, const float* weight, const ConvolveRange& range,
                      WavePlane& sum) {
-  const D d;
-  const std::size_t pitch = PackedCells(range) / (range.last_row - range.first_row);
-  for (int y = range.first_row; y < range.last_row; ++y, weight += pitch) {
-    for (int x = range.first_column; x < range.last_column; x += static_cast<int>(hn::Lanes(d))) {
-      const V value =
-          hn::Mul(hn::Load(d, in.Row(y) + x), hn::Load(d, weight + x - range.first_column));
-      hn::Store(hn::Add(hn::Load(d, sum.Row(y) + x), value), d, sum.Row(y) + x);
-    }
-  }
+  WeighInto<true>(in, weight, range, sum);
 }
 
 void DifferenceRows(const WavePlane& phi, const FacePlanes& open, FacePlanes& difference) {

@@ -372,9 +372,9 @@ absl::Status RigidBodies::RemoveRope(RopeId id) {
 
 void RigidBodies::MoveAlone(Entry& entry, WaterSource& water, const Air& air) {
   const BodyModel& model = *entry.model;
-  water.Around(entry.state.pose.centre_m, model.hull.radius_m(), patch_);
+  const WaterPatch& patch = water.Around(entry.state.pose.centre_m, model.hull.radius_m());
   if (model.spec.control == BodyControl::kByOwner) {
-    entry.loads = ComputeLoads(model, entry.state, patch_, air, scratch_);
+    entry.loads = ComputeLoads(model, entry.state, patch, air, scratch_);
     entry.state.immersion = entry.loads.immersion;
     entry.state.submersion = entry.loads.submersion;
     AdvanceDrive(model.spec.thrusters, model.spec.rudders, entry.state.command, step_s_,
@@ -384,7 +384,7 @@ void RigidBodies::MoveAlone(Entry& entry, WaterSource& water, const Air& air) {
   }
   const int parts = SubSteps(model, step_s_);
   for (int n = 0; n < parts; ++n) {
-    entry.loads = ComputeLoads(model, entry.state, patch_, air, scratch_);
+    entry.loads = ComputeLoads(model, entry.state, patch, air, scratch_);
     if (!AdvanceVelocity(model, entry.loads, {}, {}, step_s_ / parts, entry.state)) ++faults_;
     AdvancePose(step_s_ / parts, entry.state);
   }
@@ -395,10 +395,10 @@ void RigidBodies::MoveAlone(Entry& entry, WaterSource& water, const Air& air) {
   }
 }
 
-RopeBody RigidBodies::EndOf(const RopeEnd& end, const std::map<BodyId, Pose>& starts) {
+RopeBody RigidBodies::EndOf(const RopeEnd& end) {
   Entry* entry = Find(end.body);
   if (entry == nullptr) return {nullptr, nullptr, end.point_m};
-  const Pose& start = starts.at(end.body);
+  const Pose& start = starts_.at(end.body);
   const Vec3d at =
       start.centre_m + ToMatrix(start.turn) * (end.point_m - entry->model->centre_of_mass_m);
   const bool ours = entry->model->spec.control == BodyControl::kIntegrated;
@@ -406,7 +406,7 @@ RopeBody RigidBodies::EndOf(const RopeEnd& end, const std::map<BodyId, Pose>& st
 }
 
 // Stretch at the start of the step, velocities at its end.
-void RigidBodies::PullRopes(const std::map<BodyId, Pose>& starts) {
+void RigidBodies::PullRopes() {
   for (auto& [id, rope] : ropes_) {
     Entry* ends[2] = {Find(rope.spec.from.body), Find(rope.spec.to.body)};
     Vec3d velocity[2], spin[2];
@@ -415,8 +415,7 @@ void RigidBodies::PullRopes(const std::map<BodyId, Pose>& starts) {
       velocity[n] = ends[n]->state.velocity_m_per_s;
       spin[n] = ends[n]->state.spin_rad_per_s;
     }
-    rope.tension_n =
-        PullRope(rope.spec, EndOf(rope.spec.from, starts), EndOf(rope.spec.to, starts), step_s_);
+    rope.tension_n = PullRope(rope.spec, EndOf(rope.spec.from), EndOf(rope.spec.to), step_s_);
     for (int n = 0; n < 2; ++n) {
       if (ends[n] == nullptr || rope.tension_n == 0.0) continue;
       BodyState moved;  // the poses were advanced before: by what the pull adds
@@ -436,7 +435,7 @@ void RigidBodies::Step(WaterSource& water, const Air& air) {
     starts_[id] = entry.state.pose;
     MoveAlone(entry, water, air);
   }
-  PullRopes(starts_);
+  PullRopes();
   contacts_->Step(bodies_, starts_, step_s_);
 }
 

@@ -28,8 +28,8 @@ namespace onesea::world {
 class WaterSource {
  public:
   virtual ~WaterSource() = default;
-  /// Fills `patch` for a body within `radius_m` of (x, y).
-  virtual void Around(Vec3d centre_m, double radius_m, WaterPatch& patch) = 0;
+  /// For a body within `radius_m` of (x, y); valid until the next call.
+  virtual const WaterPatch& Around(Vec3d centre_m, double radius_m) = 0;
 };
 
 using RopeId = std::int64_t;
@@ -107,9 +107,9 @@ class RigidBodies {
   class Contacts;  // Bullet
 
   Entry* Find(BodyId id);
-  RopeBody EndOf(const RopeEnd& end, const std::map<BodyId, Pose>& starts);
+  RopeBody EndOf(const RopeEnd& end);
   void MoveAlone(Entry& entry, WaterSource& water, const Air& air);
-  void PullRopes(const std::map<BodyId, Pose>& starts);
+  void PullRopes();
 
   double step_s_;
   std::shared_ptr<const sea::Terrain> terrain_;
@@ -117,9 +117,8 @@ class RigidBodies {
   std::map<BodyId, Entry> bodies_;
   std::map<RopeId, RopeEntry> ropes_;
   std::unique_ptr<Contacts> contacts_;
-  WaterPatch patch_;
   WetScratch scratch_;
-  std::map<BodyId, Pose> starts_;
+  std::map<BodyId, Pose> starts_;  // poses before the step
   std::int64_t faults_ = 0;
 };
 

@@ -30,8 +30,8 @@ Quaternion HeadingOf(const Quaternion& turn) {
 class World::Water final : public WaterSource {
  public:
   explicit Water(const BodyWater& sampled) : sampled_(sampled) {}
-  void Around(Vec3d /*centre_m*/, double /*radius_m*/, WaterPatch& patch) override {
-    patch = sampled_.patch(next_++);
+  const WaterPatch& Around(Vec3d /*centre_m*/, double /*radius_m*/) override {
+    return sampled_.patch(next_++);
   }
 
  private:
@@ -63,17 +63,22 @@ void World::Step(Tick tick, const std::shared_ptr<const sea::Components>& compon
   rigid_.Step(water, AirAt(components->recipe, start));
   PressBodies();
   HoldObstacles();
-  const std::vector<sea::InteractionField> pressed = PressedHeads();
+  std::vector<sea::InteractionField> heads = PressedHeads();
   layer_.Step();
   tick_ = tick;
   Publish();
+  Feel(std::move(heads));
+}
+
+// What bodies will feel: the layer, plus what they press on it.
+void World::Feel(std::vector<sea::InteractionField> heads) {
   felt_ = *view_->interaction;
-  for (const sea::InteractionField& heads : pressed) {
+  for (sea::InteractionField& head : heads) {
     for (std::shared_ptr<const sea::InteractionField>& field : felt_.fields) {
-      if (field->cells != heads.cells) continue;
-      auto sum = std::make_shared<sea::InteractionField>(heads);
-      for (std::size_t n = 0; n < sum->height_m.size(); ++n) sum->height_m[n] += field->height_m[n];
-      field = std::move(sum);
+      if (field->cells != head.cells) continue;
+      for (std::size_t n = 0; n < head.height_m.size(); ++n) head.height_m[n] += field->height_m[n];
+      field = std::make_shared<const sea::InteractionField>(std::move(head));
+      break;
     }
   }
 }
@@ -116,12 +121,8 @@ void World::FillWater() {
     const BodyState& state = *rigid_.FindState(id);
     water_.Add({state.pose.centre_m.x, state.pose.centre_m.y}, body.model->hull.radius_m());
   }
-  felt_m_.clear();
-  if (!felt_.fields.empty()) {
-    for (const Vec2d& point : water_.points_m()) {
-      felt_m_.push_back(static_cast<float>(sea::SampleInteraction(felt_, point).height_m));
-    }
-  }
+  felt_m_.resize(felt_.fields.empty() ? 0 : water_.points_m().size());
+  if (!felt_m_.empty()) sea::InteractionHeights(felt_, water_.points_m(), felt_m_);
   const IncidentSea sea{.waves = sea_.get(),
                         .wavenumber_rad_per_m = wavenumbers_,
                         .level_m = LevelAt(TimeOfTick(tick_, options_.tick_rate_hz)),

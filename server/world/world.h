@@ -68,8 +68,8 @@ class World {
 
   /// Its id. ResourceExhausted at kBodiesMax; InvalidArgument.
   absl::StatusOr<std::uint32_t> Spawn(const PreparedBody& body, const wire::Kinematics& start);
-  /// Every other command on the world; leases are the session's business. Returns the id of what
-  /// was made or changed. NotFound, InvalidArgument, ResourceExhausted.
+  /// Every command but SpawnBody (CHECK); leases are the session's business, here they only ask
+  /// whether the body exists. Returns the id of what was made or changed. NotFound, InvalidArgument, ResourceExhausted.
   absl::StatusOr<std::uint32_t> Apply(const wire::WorldCommand& command);
   /// Of a body that its owner integrates; the force of the water on it at the present tick.
   absl::StatusOr<wire::BodyWrench> SetPose(const wire::BodyPose& pose);
@@ -113,6 +113,7 @@ class World {
   void PressBody(std::uint32_t id, Body& body, const HeightPatch& incident);
   void HoldObstacles();
   std::vector<sea::InteractionField> PressedHeads() const;
+  void Feel(std::vector<sea::InteractionField> heads);
   void Publish();
 
   WorldOptions options_;
@@ -134,7 +135,7 @@ class World {
   std::vector<double> wavenumbers_;
   BodyWater water_;
   sea::InteractionSnapshot felt_;  // heights plus what the bodies press
-  std::vector<float> felt_m_;
+  std::vector<double> felt_m_;
   std::vector<RegionForcing*> pressed_;  // where some body presses in this tick
   std::vector<sea::SurfaceSample> obstacle_samples_;
   std::shared_ptr<const WorldView> view_;

@@ -89,8 +89,8 @@ absl::StatusOr<std::uint32_t> World::Apply(const wire::WorldCommand& command) {
       [this](const auto& one) -> absl::StatusOr<std::uint32_t> {
         using Command = std::decay_t<decltype(one)>;
         if constexpr (std::is_same_v<Command, wire::SpawnBody>) {
-          ONESEA_ASSIGN_OR_RETURN(const PreparedBody body, PrepareBody(one.body));
-          return Spawn(body, one.start);
+          ONESEA_CHECK(false) << "bodies are spawned by Spawn()";
+          return 0;
         } else if constexpr (std::is_same_v<Command, wire::TakeLease> ||
                              std::is_same_v<Command, wire::ReleaseLease>) {
           if (!HasBody(one.body_id)) return NoBody(one.body_id);

@@ -76,7 +76,7 @@ TEST_F(BodyWaterTest, PressureFadesWithDepthAsTheExactSum) {
 TEST_F(BodyWaterTest, InteractionLayerAddsItsHeightWithoutFading) {
   BodyWater water;
   water.Add({0, 0}, 1.0);
-  const std::vector<float> interaction(water.points_m().size(), 0.25f);
+  const std::vector<double> interaction(water.points_m().size(), 0.25);
   water.Fill({}, interaction);
   const WaterPoint point = SampleWater(WaterSampler(water.patch(0)), {0.1, 0.2, -3.0});
   EXPECT_NEAR(point.depth_m, 3.25, 1e-6);

@@ -17,16 +17,20 @@ constexpr double kStep = 1.0 / 60;
 
 struct CalmWater : WaterSource {
   Vec3d current;
-  void Around(Vec3d, double, WaterPatch& patch) override {
+  WaterPatch patch;
+  const WaterPatch& Around(Vec3d, double) override {
     patch.SetCalm();
     patch.current_m_per_s = current;
+    return patch;
   }
 };
 struct Waves : WaterSource {
   double time_s = 0.0;
-  void Around(Vec3d centre, double radius, WaterPatch& patch) override {
+  WaterPatch patch;
+  const WaterPatch& Around(Vec3d centre, double radius) override {
     PatchAround(centre, radius, 7, {.amplitude_m = 0.4, .wavenumber_rad_per_m = 0.3}, time_s,
                 patch);
+    return patch;
   }
 };
 
