@@ -9,7 +9,7 @@
 #include "absl/status/statusor.h"
 #include "common/base/hash.h"
 #include "common/sea/terrain.h"
-#include "server/world/body_loads.h"
+#include "server/world/contacts.h"
 #include "server/world/rope.h"
 
 /// All bodies of a session: water, ropes, collisions.
@@ -95,30 +95,23 @@ class RigidBodies {
   std::uint64_t Hash() const;
 
  private:
-  struct Entry {
-    std::shared_ptr<const BodyModel> model;
-    BodyState state;
-    BodyLoads loads;
-  };
   struct RopeEntry {
     RopeSpec spec;
     double tension_n = 0.0;
   };
-  class Contacts;  // Bullet
 
-  Entry* Find(BodyId id);
+  SteppedBody* Find(BodyId id);
   RopeBody EndOf(const RopeEnd& end);
-  void MoveAlone(Entry& entry, WaterSource& water, const Air& air);
+  void MoveAlone(SteppedBody& entry, WaterSource& water, const Air& air);
   void PullRopes();
 
   double step_s_;
   std::shared_ptr<const sea::Terrain> terrain_;
   std::int64_t next_id_ = 1;
-  std::map<BodyId, Entry> bodies_;
+  std::map<BodyId, SteppedBody> bodies_;
   std::map<RopeId, RopeEntry> ropes_;
   std::unique_ptr<Contacts> contacts_;
   WetScratch scratch_;
-  std::map<BodyId, Pose> starts_;  // poses before the step
   std::int64_t faults_ = 0;
 };
 

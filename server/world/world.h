@@ -69,7 +69,8 @@ class World {
   /// Its id. ResourceExhausted at kBodiesMax; InvalidArgument.
   absl::StatusOr<std::uint32_t> Spawn(const PreparedBody& body, const wire::Kinematics& start);
   /// Every command but SpawnBody (CHECK); leases are the session's business, here they only ask
-  /// whether the body exists. Returns the id of what was made or changed. NotFound, InvalidArgument, ResourceExhausted.
+  /// whether the body exists. Returns the id of what was made or changed. NotFound,
+  /// InvalidArgument, ResourceExhausted.
   absl::StatusOr<std::uint32_t> Apply(const wire::WorldCommand& command);
   /// Of a body that its owner integrates; the force of the water on it at the present tick.
   absl::StatusOr<wire::BodyWrench> SetPose(const wire::BodyPose& pose);

@@ -106,7 +106,7 @@ const std::vector<ForbiddenArrow>& ForbiddenArrows() {
        "physics needs neither network nor disk nor clock; a tick is an argument"},
       {{""},
        "^bt|^bullet/|^Bullet",
-       {"server/world/rigid_bodies.cc"},
+       {"server/world/contacts.cc"},
        "one file to change per dependency"},
       {{"server/store/"},
        "^server/rpc/",
