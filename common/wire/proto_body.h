@@ -4,7 +4,7 @@
 
 #include "absl/status/statusor.h"
 #include "common/wire/world_spec.h"
-#include "onesea/v1/world.pb.h"
+#include "onesea/v1/body.pb.h"
 
 /// Domain <-> proto of bodies. Only common/wire, server/rpc and client/net include this.
 ///

@@ -4,6 +4,7 @@
 
 #include "absl/status/statusor.h"
 #include "common/wire/world_command.h"
+#include "onesea/v1/command.pb.h"
 #include "onesea/v1/world.pb.h"
 
 /// Domain <-> proto of the world's beginnings and of its commands. Only common/wire, server/rpc and

@@ -10,7 +10,7 @@
 #include "common/base/sim_time.h"
 #include "common/wire/world_spec.h"
 
-/// Commands on a session's world in the domain's own words (proto onesea.v1, world.proto).
+/// Commands on a session's world in the domain's own words (proto onesea.v1, command.proto).
 namespace onesea::wire {
 
 /// What every command says of itself.
