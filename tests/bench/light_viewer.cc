@@ -1,9 +1,6 @@
 #include "tests/bench/light_viewer.h"
 
-#include <arpa/inet.h>
 #include <fcntl.h>
-#include <netinet/in.h>
-#include <netinet/tcp.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -11,6 +8,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "tests/shared/loopback.h"
 
 namespace onesea::bench {
 namespace {
@@ -81,13 +79,9 @@ LightViewer::LightViewer(LightViewer&& other) noexcept
 
 bool LightViewer::Open(int port, const std::string& session, bool every_frame) {
   fd_ = socket(AF_INET, SOCK_STREAM, 0);
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_port = htons(static_cast<std::uint16_t>(port));
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  if (connect(fd_, reinterpret_cast<sockaddr*>(&address), sizeof(address)) != 0) return false;
-  const int on = 1;
-  setsockopt(fd_, IPPROTO_TCP, TCP_NODELAY, &on, sizeof(on));
+  const sockaddr_in address = Loopback(port);
+  if (connect(fd_, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0) return false;
+  SetNoDelay(fd_);
   fcntl(fd_, F_SETFL, fcntl(fd_, F_GETFL) | O_NONBLOCK);
   std::string hello = "PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n";
   hello += HttpFrame(kSettings, 0, 0, Setting(2, 0) + Setting(4, kWindowBytes));

@@ -1,8 +1,5 @@
 #include "tests/bench/ping_pong.h"
 
-#include <arpa/inet.h>
-#include <netinet/in.h>
-#include <netinet/tcp.h>
 #include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -11,24 +8,12 @@
 #include <array>
 
 #include "common/base/check.h"
+#include "tests/shared/loopback.h"
 
 namespace onesea::bench {
 namespace {
 
 constexpr int kBytesMax = std::max(kPingBytes, kPongBytes);
-
-sockaddr_in Loopback(int port) {
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_port = htons(static_cast<std::uint16_t>(port));
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  return address;
-}
-
-void SetNoDelay(int fd) {
-  const int on = 1;
-  setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &on, sizeof(on));
-}
 
 bool SendAll(int fd, int bytes) {
   std::array<char, kBytesMax> buffer{};

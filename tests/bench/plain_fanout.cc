@@ -1,9 +1,6 @@
 #include "tests/bench/plain_fanout.h"
 
-#include <arpa/inet.h>
 #include <fcntl.h>
-#include <netinet/in.h>
-#include <netinet/tcp.h>
 #include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -15,17 +12,10 @@
 #include <vector>
 
 #include "common/base/clock.h"
+#include "tests/shared/loopback.h"
 
 namespace onesea::bench {
 namespace {
-
-sockaddr_in Loopback(int port) {
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_port = htons(static_cast<std::uint16_t>(port));
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  return address;
-}
 
 // Of the ports that the system gives to no client, the first that is free.
 int ListenBelowClientPorts(int listener) {
@@ -50,8 +40,7 @@ void ServePlainFanout(int frame_bytes, int rate_hz, int port_pipe, int stop_pipe
   std::int64_t due_ns = SystemClock().MonotonicNs();
   for (pollfd stop{stop_pipe, POLLIN, 0}; poll(&stop, 1, 0) == 0;) {
     for (int fd; (fd = accept(listener, nullptr, nullptr)) >= 0;) {
-      const int on = 1;
-      setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &on, sizeof(on));
+      SetNoDelay(fd);
       viewers.push_back(fd);
     }
     due_ns += 1'000'000'000 / rate_hz;

@@ -1,6 +1,5 @@
 #include "tests/e2e/server_process.h"
 
-#include <arpa/inet.h>
 #include <grpcpp/create_channel.h>
 #include <grpcpp/security/credentials.h>
 #include <spawn.h>
@@ -14,6 +13,7 @@
 #include <thread>
 
 #include "common/base/check.h"
+#include "tests/shared/loopback.h"
 
 namespace onesea::e2e {
 namespace {
@@ -26,10 +26,7 @@ int FreePort() {
   while (true) {
     const int port = 20000 + static_cast<int>(random() % 11000);
     const int probe = socket(AF_INET, SOCK_STREAM, 0);
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_port = htons(static_cast<std::uint16_t>(port));
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    const sockaddr_in address = Loopback(port);
     const bool is_free =
         bind(probe, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
     close(probe);

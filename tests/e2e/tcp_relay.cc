@@ -1,8 +1,5 @@
 #include "tests/e2e/tcp_relay.h"
 
-#include <arpa/inet.h>
-#include <netinet/in.h>
-#include <netinet/tcp.h>
 #include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -10,24 +7,9 @@
 #include <array>
 
 #include "common/base/check.h"
+#include "tests/shared/loopback.h"
 
 namespace onesea::e2e {
-namespace {
-
-sockaddr_in Loopback(int port) {
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_port = htons(static_cast<std::uint16_t>(port));
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  return address;
-}
-
-void NoDelay(int fd) {
-  const int on = 1;
-  setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &on, sizeof(on));
-}
-
-}  // namespace
 
 TcpRelay::TcpRelay(int server_port) : server_port_(server_port) {
   listener_ = socket(AF_INET, SOCK_STREAM, 0);
@@ -60,8 +42,8 @@ void TcpRelay::Accept() {
     close(server);
     return;
   }
-  NoDelay(client);
-  NoDelay(server);
+  SetNoDelay(client);
+  SetNoDelay(server);
   pairs_.push_back({client, server});
 }
 
