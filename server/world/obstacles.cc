@@ -1,6 +1,7 @@
 #include "server/world/obstacles.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "common/base/limits.h"
@@ -17,6 +18,39 @@ bool InsidePolygon(std::span<const Vec2d> corners_m, Vec2d place) {
   }
   return inside;
 }
+
+namespace {
+
+// The first cell and one past the last of those that [low, high] m covers, within [first, end).
+std::pair<std::int64_t, std::int64_t> CellSpan(double low_m, double high_m, double cell_m,
+                                               std::int64_t first, std::int64_t end) {
+  const double low =
+      std::clamp(std::ceil(low_m / cell_m), static_cast<double>(first), static_cast<double>(end));
+  const double high = std::clamp(std::floor(high_m / cell_m) + 1.0, static_cast<double>(first),
+                                 static_cast<double>(end));
+  return {static_cast<std::int64_t>(low), static_cast<std::int64_t>(high)};
+}
+
+// Marks the cells of the region inside the polygon. Cost: its corners times the cells of the box
+// around it.
+void Fill(const sea::CellRect& region, std::span<const Vec2d> corners_m, std::vector<bool>& solid) {
+  const auto [west, east] = std::minmax_element(corners_m.begin(), corners_m.end(),
+                                                [](Vec2d a, Vec2d b) { return a.x < b.x; });
+  const auto [south, north] = std::minmax_element(corners_m.begin(), corners_m.end(),
+                                                  [](Vec2d a, Vec2d b) { return a.y < b.y; });
+  const auto [i_first, i_end] =
+      CellSpan(west->x, east->x, region.cell_m, region.west, region.east());
+  const auto [j_first, j_end] =
+      CellSpan(south->y, north->y, region.cell_m, region.south, region.north());
+  for (std::int64_t j = j_first; j < j_end; ++j) {
+    for (std::int64_t i = i_first; i < i_end; ++i) {
+      if (!InsidePolygon(corners_m, region.PlaceOf(i, j))) continue;
+      solid[static_cast<std::size_t>((j - region.south) * region.columns + i - region.west)] = true;
+    }
+  }
+}
+
+}  // namespace
 
 void Obstacles::Set(std::uint32_t id, std::vector<Vec2d> corners_m) {
   polygons_[id] = std::move(corners_m);
@@ -35,17 +69,14 @@ const Obstacles::Cells& Obstacles::CellsIn(const sea::CellRect& region) {
   if (cells_.size() >= 2 * kRegionsMax) cells_.clear();  // of regions that moved on
   Cells& cells = cells_.emplace_back();
   cells.region = region;
-  for (std::int64_t j = region.south; j < region.north(); ++j) {
-    for (std::int64_t i = region.west; i < region.east(); ++i) {
-      const Vec2d place = region.PlaceOf(i, j);
-      const bool solid = std::any_of(polygons_.begin(), polygons_.end(), [&](const auto& entry) {
-        return InsidePolygon(entry.second, place);
-      });
-      if (!solid) continue;
-      cells.index.push_back(static_cast<std::size_t>(j - region.south) * region.columns +
-                            static_cast<std::size_t>(i - region.west));
-      cells.place_m.push_back(place);
-    }
+  std::vector<bool> solid(region.cells());
+  for (const auto& [id, corners_m] : polygons_) Fill(region, corners_m, solid);
+  for (std::size_t n = 0; n < solid.size(); ++n) {
+    if (!solid[n]) continue;
+    cells.index.push_back(n);
+    cells.place_m.push_back(
+        region.PlaceOf(region.west + static_cast<std::int64_t>(n) % region.columns,
+                       region.south + static_cast<std::int64_t>(n) / region.columns));
   }
   return cells;
 }

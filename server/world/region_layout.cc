@@ -23,6 +23,12 @@ bool StillNear(double centre_cells, std::int64_t start, int cells) {
   return std::abs(centre_cells - (static_cast<double>(start) + 0.5 * cells)) <= kStayCells;
 }
 
+std::int64_t CellsOf(std::span<const Region> regions) {
+  std::int64_t cells = 0;
+  for (const Region& region : regions) cells += static_cast<std::int64_t>(region.cells.cells());
+  return cells;
+}
+
 double Area(const sea::CellRect& cells) { return static_cast<double>(cells.cells()); }
 
 bool CanMerge(const Region& a, const Region& b) {
@@ -57,14 +63,15 @@ absl::Status ValidateRegionAsk(const RegionAsk& ask) {
       return s;
     }
   }
-  for (const auto& [name, value] : {std::pair("region.centre.x", ask.centre_m.x),
-                                    std::pair("region.centre.y", ask.centre_m.y)}) {
-    if (absl::Status s = CheckInRange(name, value, -kQueryCoordinateMaxM, kQueryCoordinateMaxM);
-        !s.ok()) {
-      return s;
-    }
-  }
-  return absl::OkStatus();
+  const auto check_place = [&ask](const char* name, double centre_m, int cells) {
+    // All of the region lies within the world, wherever it is snapped to.
+    const double limit_m =
+        kQueryCoordinateMaxM - (0.5 * RoundedUp(cells) + kRegionSideStep + kStayCells) * ask.cell_m;
+    return CheckInRange(name, centre_m, -limit_m, limit_m);
+  };
+  absl::Status status = check_place("region.centre.x", ask.centre_m.x, ask.columns);
+  status.Update(check_place("region.centre.y", ask.centre_m.y, ask.rows));
+  return status;
 }
 
 std::vector<PlacedAsk> SnapAsks(std::span<const RegionAsk> asks,
@@ -107,7 +114,7 @@ std::vector<Region> LayOut(std::span<const PlacedAsk> asks) {
         }
       }
     }
-    if (regions.size() > kRegionsMax) regions.pop_back();
+    if (regions.size() > kRegionsMax || CellsOf(regions) > kRegionCellsMax) regions.pop_back();
   }
   return regions;
 }

@@ -43,14 +43,15 @@ inline constexpr int kStayCells = 24;  // of the centre; half a step is 16
 /// A merged region has at most this many times the cells that its parts cover.
 inline constexpr double kMergeExcessMax = 1.3;
 
-/// InvalidArgument naming field, value and limit.
+/// InvalidArgument naming field, value and limit; the whole region must lie within
+/// ±kQueryCoordinateMaxM.
 absl::Status ValidateRegionAsk(const RegionAsk& ask);
 
 /// The asks' rectangles, given those before (any order). Pre: the asks are valid.
 std::vector<PlacedAsk> SnapAsks(std::span<const RegionAsk> asks, std::span<const PlacedAsk> before);
 
-/// The regions: merged, in the order of their first asks, at most kRegionsMax (later asks go
-/// without).
+/// The regions: merged, in the order of their first asks, at most kRegionsMax of together
+/// kRegionCellsMax cells (later asks go without).
 std::vector<Region> LayOut(std::span<const PlacedAsk> asks);
 
 }  // namespace onesea::world

@@ -130,6 +130,24 @@ absl::Status RigidBodies::RemoveRope(RopeId id) {
   return absl::OkStatus();
 }
 
+namespace {
+
+// What sinks where there is no bottom, or drifts out of the world, stops at its edge.
+void KeepInTheWorld(BodyState& state) {
+  const auto keep = [](double low, double high, double& place, double& velocity) {
+    if (place >= low && place <= high) return;
+    place = std::clamp(place, low, high);
+    velocity = 0.0;
+  };
+  Vec3d& place = state.pose.centre_m;
+  Vec3d& velocity = state.velocity_m_per_s;
+  keep(-kQueryCoordinateMaxM, kQueryCoordinateMaxM, place.x, velocity.x);
+  keep(-kQueryCoordinateMaxM, kQueryCoordinateMaxM, place.y, velocity.y);
+  keep(-kDepthMaxM, kQueryCoordinateMaxM, place.z, velocity.z);
+}
+
+}  // namespace
+
 void RigidBodies::MoveAlone(SteppedBody& entry, WaterSource& water, const Air& air) {
   const BodyModel& model = *entry.model;
   const WaterPatch& patch = water.Around(entry.state.pose.centre_m, model.hull.radius_m());
@@ -140,6 +158,7 @@ void RigidBodies::MoveAlone(SteppedBody& entry, WaterSource& water, const Air& a
     AdvanceDrive(model.spec.thrusters, model.spec.rudders, entry.state.command, step_s_,
                  entry.state.drive);
     AdvancePose(step_s_, entry.state);  // until the owner says otherwise
+    KeepInTheWorld(entry.state);
     return;
   }
   const int parts = SubSteps(model, step_s_);
@@ -148,11 +167,7 @@ void RigidBodies::MoveAlone(SteppedBody& entry, WaterSource& water, const Air& a
     if (!AdvanceVelocity(model, entry.loads, {}, {}, step_s_ / parts, entry.state)) ++faults_;
     AdvancePose(step_s_ / parts, entry.state);
   }
-  // What sinks where there is no bottom stops somewhere.
-  if (entry.state.pose.centre_m.z < -kDepthMaxM) {
-    entry.state.pose.centre_m.z = -kDepthMaxM;
-    entry.state.velocity_m_per_s.z = 0.0;
-  }
+  KeepInTheWorld(entry.state);
 }
 
 RopeBody RigidBodies::EndOf(const RopeEnd& end) {

@@ -181,6 +181,13 @@ absl::StatusOr<std::uint32_t> World::Do(const wire::AddRegion& command) {
     return absl::ResourceExhaustedError(
         absl::StrCat("the session has ", kRegionsMax, " regions, the most there can be"));
   }
+  std::int64_t cells = std::int64_t{command.region.columns} * command.region.rows;
+  for (const auto& [id, spec] : regions_) cells += std::int64_t{spec.columns} * spec.rows;
+  if (cells > kRegionCellsMax) {
+    return absl::ResourceExhaustedError(absl::StrCat("region: with it the session would have ",
+                                                     cells, " cells, the limit is ",
+                                                     kRegionCellsMax));
+  }
   const std::uint32_t follows = command.region.follow_body_id;
   if (follows != 0 && !HasBody(follows)) return NoBody(follows);
   const std::uint32_t id = next_region_id_;

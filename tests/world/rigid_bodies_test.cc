@@ -316,5 +316,24 @@ TEST(RigidBodies, BodiesOfOthersPushAndFloat) {
               0.01 * 9000 * sea::kGravity);
 }
 
+TEST(RigidBodies, StopsAtTheEdgeOfTheWorld) {
+  for (const BodyControl control : {BodyControl::kIntegrated, BodyControl::kByOwner}) {
+    RigidBodies world(kStep, nullptr);
+    BodySpec spec = *BodyPreset("crate");
+    spec.control = control;
+    const auto model = Model(spec, 1025);
+    BodyState state = At(*model, kQueryCoordinateMaxM - 1.0, 0);
+    state.velocity_m_per_s = {100, 0, 0};
+    const BodyId id = *world.Add(model, state);
+    CalmWater water;
+    for (int n = 0; n < 60; ++n) {
+      world.Step(water, {});
+      ASSERT_LE(world.FindState(id)->pose.centre_m.x, kQueryCoordinateMaxM);
+    }
+    EXPECT_GT(world.FindState(id)->pose.centre_m.x,
+              kQueryCoordinateMaxM - 2.0);  // it tumbles there
+  }
+}
+
 }  // namespace
 }  // namespace onesea::world

@@ -9,6 +9,7 @@
 #include <memory>
 #include <string>
 
+#include "common/wire/world_encoder.h"
 #include "tests/sea/fake_sea.h"
 
 namespace onesea::world {
@@ -211,6 +212,53 @@ TEST_F(WorldTest, ErrorsNameWhatIsMissing) {
   const std::uint32_t box = Spawn(Box({1, 1, 1}, 500.0));
   EXPECT_THAT(message(wire::DriveBody{box, {1.0}, {}}), HasSubstr("has 0 thrusters"));
   EXPECT_FALSE(PrepareBody(Box({1, 1, 1}, 0.0)).ok());
+}
+
+// What an encoder of frames refuses would end the server.
+TEST_F(WorldTest, RegionsAlwaysFitTheWire) {
+  const auto add = [this](int cells, double cell_m, Vec2d middle) {
+    wire::RegionSpec spec = Square(cells);
+    spec.cell_m = cell_m;
+    spec.middle_m = middle;
+    return world_.Apply(wire::AddRegion{spec}).status();
+  };
+  EXPECT_EQ(add(128, 0.5, {-9.99999e6, 0}).code(), absl::StatusCode::kInvalidArgument);
+  EXPECT_EQ(add(128, 1000.0, {0, 9.95e6}).code(), absl::StatusCode::kInvalidArgument);
+  EXPECT_TRUE(add(128, 0.5, {-9.9e6, 9.9e6}).ok());
+  for (int n = 0; n < 3; ++n) EXPECT_TRUE(add(1024, 0.5, {2000.0 * n, 0}).ok()) << n;
+  const absl::Status too_many = add(1024, 0.5, {9000, 0});
+  EXPECT_EQ(too_many.code(), absl::StatusCode::kResourceExhausted);
+  EXPECT_THAT(std::string(too_many.message()), HasSubstr("4194304"));
+  Run(1);
+  wire::WorldEncoder encoder(1.0 / 60);
+  const wire::WorldUpdate update = encoder.Encode({.tick = 1,
+                                                   .interaction = world_.view()->interaction.get(),
+                                                   .bodies = {},
+                                                   .water_level_m = 0.0,
+                                                   .spray = {}});
+  ASSERT_TRUE(update.tiles.layout.has_value());
+  EXPECT_TRUE(wire::ValidateLayout(*update.tiles.layout).ok());
+  EXPECT_EQ(update.tiles.layout->size(), 4u);
+}
+
+TEST_F(WorldTest, OverlappingObstaclesAreFilledOnce) {
+  Obstacles obstacles;
+  obstacles.Set(1, {{0, 0}, {4, 0}, {4, 2}, {0, 2}});
+  obstacles.Set(2, {{2, 1}, {3, 1}, {3, 30}, {2, 30}});
+  const sea::CellRect region{.west = -2, .south = -2, .columns = 64, .rows = 64, .cell_m = 0.5};
+  const Obstacles::Cells& cells = obstacles.CellsIn(region);
+  const std::vector<std::vector<Vec2d>> polygons = {{{0, 0}, {4, 0}, {4, 2}, {0, 2}},
+                                                    {{2, 1}, {3, 1}, {3, 30}, {2, 30}}};
+  std::vector<std::size_t> expected;
+  for (std::size_t n = 0; n < region.cells(); ++n) {
+    const Vec2d place =
+        region.PlaceOf(-2 + static_cast<int>(n % 64), -2 + static_cast<int>(n / 64));
+    if (InsidePolygon(polygons[0], place) || InsidePolygon(polygons[1], place)) {
+      expected.push_back(n);
+    }
+  }
+  EXPECT_EQ(cells.index, expected);
+  EXPECT_GT(expected.size(), 60u);
 }
 
 TEST_F(WorldTest, ObstaclesStandStill) {
