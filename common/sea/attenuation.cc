@@ -7,6 +7,7 @@
 #include "common/base/check.h"
 #include "common/base/real_math.h"
 #include "common/sea/constants.h"
+#include "common/sea/grid_place.h"
 
 namespace onesea::sea {
 namespace {
@@ -18,17 +19,6 @@ constexpr double kBarDepthM = 0.5;
 // Share of a difference that evens out sideways from line to line: the shadow's edge is
 // √(n / 2) cells wide after n of them.
 constexpr double kSpread = 0.25;
-
-struct Place {
-  int cell;
-  double fraction;
-};
-
-Place Locate(double cells, int samples) {
-  const double clamped = std::clamp(cells, 0.0, static_cast<double>(samples - 1));
-  const int cell = std::min(static_cast<int>(clamped), samples - 2);
-  return {cell, clamped - cell};
-}
 
 // Adds variance to the two directions beside the wave's.
 void AddDirection(double kx, double ky, double variance_m2, double* sums_m2) {
@@ -42,8 +32,8 @@ void AddDirection(double kx, double ky, double variance_m2, double* sums_m2) {
 }  // namespace
 
 double AttenuationGrid::At(Vec2d place, int plane) const {
-  const Place x = Locate((place.x - west_m) / cell_m, columns);
-  const Place y = Locate((place.y - south_m) / cell_m, rows);
+  const GridPlace x = LocateOnGrid((place.x - west_m) / cell_m, columns);
+  const GridPlace y = LocateOnGrid((place.y - south_m) / cell_m, rows);
   const float* at = &factor[(static_cast<std::size_t>(y.cell) * columns + x.cell) * planes + plane];
   const std::size_t up = static_cast<std::size_t>(columns) * planes;
   const double south = at[0] + x.fraction * (double{at[planes]} - at[0]);

@@ -7,26 +7,12 @@
 #include "common/base/hash.h"
 #include "common/base/limits.h"
 #include "common/base/range_check.h"
+#include "common/sea/grid_place.h"
 
 namespace onesea::sea {
-namespace {
-
-struct Place {
-  int cell;         // 0 .. samples - 2
-  double fraction;  // 0 .. 1
-};
-
-Place Locate(double distance_in_cells, int samples) {
-  const double clamped = std::clamp(distance_in_cells, 0.0, static_cast<double>(samples - 1));
-  const int cell = std::min(static_cast<int>(clamped), samples - 2);
-  return {cell, clamped - cell};
-}
-
-}  // namespace
-
 double Terrain::ElevationAt(Vec2d place) const {
-  const Place x = Locate((place.x - west_m) / cell_m, columns);
-  const Place y = Locate((place.y - south_m) / cell_m, rows);
+  const GridPlace x = LocateOnGrid((place.x - west_m) / cell_m, columns);
+  const GridPlace y = LocateOnGrid((place.y - south_m) / cell_m, rows);
   const float* south_west = &elevation_m[static_cast<std::size_t>(y.cell) * columns + x.cell];
   const double south = south_west[0] + x.fraction * (south_west[1] - south_west[0]);
   const double north =

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "common/base/check.h"
+#include "common/sea/grid_place.h"
 
 namespace onesea::world {
 namespace {
@@ -103,14 +104,12 @@ void AddTriangle(const std::array<Corner, 3>& triangle, Spreader& spreader) {
 
 double HeightPatch::At(double x, double y) const {
   if (columns == 0) return flat_m;
-  const double u = std::clamp((x - west_m) / cell_m, 0.0, columns - 1.0);
-  const double v = std::clamp((y - south_m) / cell_m, 0.0, rows - 1.0);
-  const int i = std::min(static_cast<int>(u), columns - 2);
-  const int j = std::min(static_cast<int>(v), rows - 2);
-  const float* at = &height_m[static_cast<std::size_t>(j) * columns + i];
-  const double south = at[0] + (u - i) * (at[1] - at[0]);
-  const double north = at[columns] + (u - i) * (at[columns + 1] - at[columns]);
-  return south + (v - j) * (north - south);
+  const sea::GridPlace u = sea::LocateOnGrid((x - west_m) / cell_m, columns);
+  const sea::GridPlace v = sea::LocateOnGrid((y - south_m) / cell_m, rows);
+  const float* at = &height_m[static_cast<std::size_t>(v.cell) * columns + u.cell];
+  const double south = at[0] + u.fraction * (at[1] - at[0]);
+  const double north = at[columns] + u.fraction * (at[columns + 1] - at[columns]);
+  return south + v.fraction * (north - south);
 }
 
 void AddDisplacedColumns(const TriangleMesh& mesh, Vec3d centre_of_mass_m, const Pose& pose,
