@@ -10,6 +10,14 @@
 #include "server/rpc/watch_shard.h"
 
 namespace onesea::server {
+namespace {
+
+// A viewer acknowledges every fourth frame (WIRE.md).
+constexpr int kFramesPerAck = 4;
+constexpr std::int64_t kIdleNs = 200'000'000;
+
+}  // namespace
+
 WatchCall::WatchCall(WatchShard& shard, WatchMethods& methods) : shard_(shard), methods_(methods) {
   for (int op = 0; op < kWatchOps; ++op) tags_[op] = {this, static_cast<WatchOp>(op)};
 }
@@ -89,7 +97,9 @@ void WatchCall::Drive(std::int64_t now_ns) {
       break;
   }
   writing_ = true;
+  sent_ns_ = now_ns;
   shard_.CountFrame();
+  ReadIfDue(false);
 }
 
 void WatchCall::OnWritten(bool ok, std::int64_t now_ns) {
@@ -117,6 +127,7 @@ void WatchCall::Finish(const absl::Status& status, std::int64_t now_ns) {
 }
 
 void WatchCall::CheckPatience(std::int64_t now_ns) {
+  if (state_ == State::kWatching && now_ns - sent_ns_ >= kIdleNs) ReadIfDue(true);
   if (state_ == State::kOpening && now_ns - state_since_ns_ >= kOpenTimeoutNs) {
     Finish(absl::DeadlineExceededError("open: nothing came for 5 s"), now_ns);
   } else if (state_ == State::kWatching && subscriber_->Stalled(now_ns)) {
@@ -137,9 +148,22 @@ void BidiWatchCall::Request() {
                         Begin(WatchOp::kAccepted));
 }
 
-void BidiWatchCall::OnAccepted(std::int64_t) { stream_.Read(&received_, Begin(WatchOp::kRead)); }
+void BidiWatchCall::OnAccepted(std::int64_t) { Read(); }
+
+void BidiWatchCall::Read() {
+  reading_ = true;
+  stream_.Read(&received_, Begin(WatchOp::kRead));
+}
+
+void BidiWatchCall::ReadIfDue(bool idle) {
+  if (reading_ || state_ != State::kWatching) return;
+  // The frame that was sent just now is not what is waited for.
+  const int owed = subscriber_->unacknowledged() - 1;
+  if (idle || owed >= kFramesPerAck || owed + 1 >= viewer_.credit) Read();
+}
 
 void BidiWatchCall::OnRead(std::int64_t now_ns) {
+  reading_ = false;
   absl::StatusOr<ViewerMessage> message = ParseViewerMessage(received_);
   if (!message.ok()) return Finish(message.status(), now_ns);
   auto* open = std::get_if<OpenMessage>(&*message);
@@ -153,8 +177,7 @@ void BidiWatchCall::OnRead(std::int64_t now_ns) {
   } else {
     OnAck(std::get<AckMessage>(*message), now_ns);
   }
-  const bool goes_on = state_ == State::kWatching;
-  if (goes_on) stream_.Read(&received_, Begin(WatchOp::kRead));
+  ReadIfDue(false);
 }
 
 void BidiWatchCall::OnAck(const AckMessage& ack, std::int64_t now_ns) {

@@ -80,6 +80,8 @@ class WatchCall {
 
   virtual void OnAccepted(std::int64_t now_ns) = 0;
   virtual void OnRead(std::int64_t) {}
+  // Something was sent, or `idle`: nothing was for a while.
+  virtual void ReadIfDue(bool /*idle*/) {}
   virtual void StartWrite(const grpc::ByteBuffer& bytes) = 0;
   virtual void StartFinish(const grpc::Status& status) = 0;
   // The farewell and the end in one.
@@ -101,12 +103,17 @@ class WatchCall {
   std::array<WatchTag, kWatchOps> tags_;
   int pending_ = 0;
   bool writing_ = false;
+  std::int64_t sent_ns_ = 0;  // when the last write began
   std::int64_t state_since_ns_ = 0;
   std::optional<grpc::Status> owed_status_;  // Finishing, but a write is still in flight
   Seat seat_;
 };
 
 /// Watch: the viewer acknowledges.
+///
+/// A message that finds nobody reading waits in gRPC until somebody does; one that is waited for
+/// wakes the shard's thread. So while frames flow an acknowledgement is read only when one must
+/// have come since: one wake-up less for each, 21 -> 18.5 µs of CPU a frame.
 class BidiWatchCall final : public WatchCall {
  public:
   using WatchCall::WatchCall;
@@ -116,13 +123,16 @@ class BidiWatchCall final : public WatchCall {
  private:
   void OnAccepted(std::int64_t now_ns) override;
   void OnRead(std::int64_t now_ns) override;
+  void ReadIfDue(bool idle) override;
   void StartWrite(const grpc::ByteBuffer& bytes) override;
   void StartFinish(const grpc::Status& status) override;
   void StartLastWrite(const grpc::ByteBuffer& bytes) override;
+  void Read();
   void OnAck(const AckMessage& ack, std::int64_t now_ns);
 
   grpc::ServerAsyncReaderWriter<grpc::ByteBuffer, grpc::ByteBuffer> stream_{&context_};
   grpc::ByteBuffer received_;
+  bool reading_ = false;
   bool warned_of_drift_ = false;
 };
 
