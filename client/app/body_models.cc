@@ -39,7 +39,8 @@ BodyModels::Model BodyModels::MakeModel(const wire::BodyInfo& info) {
   }
 }
 
-std::vector<render::HullInstance> BodyModels::At(const WorldView& world, SimTime time) {
+std::vector<render::HullInstance> BodyModels::At(const WorldView& world, SimTime time,
+                                                 const std::optional<wire::BodyState>& own) {
   std::vector<render::HullInstance> hulls;
   std::map<std::shared_ptr<const wire::BodyInfo>, Model> kept;
   for (const wire::BodyTable::Body& body : world.bodies()) {
@@ -48,7 +49,7 @@ std::vector<render::HullInstance> BodyModels::At(const WorldView& world, SimTime
         kept.emplace(body.info, known != models_.end() ? known->second : MakeModel(*body.info))
             .first->second;
     if (model.mesh == nullptr) continue;
-    const wire::BodyState state = body.At(time);
+    const wire::BodyState state = own && own->id == body.newest.id ? *own : body.At(time);
     render::HullInstance& hull = hulls.emplace_back();
     hull.mesh = model.mesh;
     hull.position_m =

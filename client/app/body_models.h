@@ -2,6 +2,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "client/model/local_world.h"
@@ -18,8 +19,9 @@ namespace onesea::client {
 /// Capsules and meshes aren't drawn.
 class BodyModels {
  public:
-  /// The bodies at `time`, ready to be drawn.
-  std::vector<render::HullInstance> At(const WorldView& world, SimTime time);
+  /// The bodies at `time`, ready to be drawn; the one of `own` as that says, if there is one.
+  std::vector<render::HullInstance> At(const WorldView& world, SimTime time,
+                                       const std::optional<wire::BodyState>& own = std::nullopt);
 
  private:
   struct Model {

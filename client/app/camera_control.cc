@@ -55,6 +55,12 @@ void CameraControl::ToggleOrbit() {
              camera_.position_m.z + distance_m_ * std::sin(camera_.pitch_rad)};
 }
 
+void CameraControl::TakeOver(const render::Camera& camera) {
+  camera_ = camera;
+  orbiting_ = false;
+  rides_ = false;
+}
+
 void CameraControl::Move(const CameraInput& input, double seconds) {
   camera_.yaw_rad -= input.turn_px * kPixelRad;
   camera_.pitch_rad = std::clamp(camera_.pitch_rad - input.tilt_px * kPixelRad, -1.5, 1.5);

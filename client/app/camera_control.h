@@ -24,6 +24,8 @@ class CameraControl {
 
   void Move(const CameraInput& input, double seconds);
   void ToggleOrbit();
+  /// Flies from where another camera is.
+  void TakeOver(const render::Camera& camera);
   /// The camera over a sea that is `sea_height_m` high below it: never closer than 0.5 m unless it
   /// was flown under water on purpose (below -1 m).
   render::Camera At(double sea_height_m) const;

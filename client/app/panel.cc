@@ -4,9 +4,12 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace onesea::client {
 namespace {
+
+constexpr double kMPerSInAKnot = 1852.0 / 3600.0;
 
 void ShowSource(const SourceReport& report, double frames_per_second) {
   ImGui::TextWrapped("%s", report.where.c_str());
@@ -38,6 +41,43 @@ void ShowSea(const SeaFigures& figures) {
       ImVec2(0, 80));
 }
 
+// From the middle to either side, [-1, 1].
+void Bar(const char* label, double value) {
+  ImGui::Text("%-9s %3d %%", label, static_cast<int>(std::lround(100.0 * std::abs(value))));
+  ImGui::SameLine();
+  const ImVec2 from = ImGui::GetCursorScreenPos();
+  const ImVec2 size(ImGui::GetContentRegionAvail().x, ImGui::GetTextLineHeight());
+  const float middle = from.x + 0.5f * size.x,
+              end = middle + 0.5f * size.x * static_cast<float>(value);
+  ImDrawList* const list = ImGui::GetWindowDrawList();
+  list->AddRectFilled(from, ImVec2(from.x + size.x, from.y + size.y),
+                      ImGui::GetColorU32(ImGuiCol_FrameBg));
+  list->AddRectFilled(ImVec2(std::min(middle, end), from.y),
+                      ImVec2(std::max(middle, end) + 1.0f, from.y + size.y),
+                      ImGui::GetColorU32(ImGuiCol_PlotHistogram));
+  ImGui::Dummy(size);
+}
+
+// At the foot of the picture, whether the panel is open or not.
+void ShowHelm(const HelmReport& helm) {
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos(ImVec2(size.x * 0.5f, size.y - 12.0f), ImGuiCond_Always,
+                          ImVec2(0.5f, 1.0f));
+  ImGui::SetNextWindowSize(ImVec2(std::min(420.0f, size.x - 24.0f), 0));
+  ImGui::SetNextWindowBgAlpha(0.6f);
+  ImGui::Begin("Helm", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
+                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing);
+  if (helm.aboard) {
+    ImGui::Text("boat %u    %.1f m/s  (%.1f kn)", helm.boat, helm.speed_m_per_s,
+                helm.speed_m_per_s / kMPerSInAKnot);
+    Bar("throttle", helm.throttle);
+    Bar("rudder", -helm.rudder);  // to the right turns to the right
+  }
+  if (!helm.line.empty()) ImGui::TextWrapped("%s", helm.line.c_str());
+  ImGui::End();
+}
+
 void Slider(const char* label, double& value, double low, double high, const char* format) {
   ImGui::SliderScalar(label, ImGuiDataType_Double, &value, &low, &high, format);
 }
@@ -61,6 +101,12 @@ void ShowKeys() {
       "mouse drag   look around\n"
       "wheel        zoom; distance when circling\n"
       "O            circle a point / fly\n"
+      "B            launch a boat ahead\n"
+      "arrows       its throttle and rudder\n"
+      "C            camera behind the boat / free\n"
+      "Space        drop a crate\n"
+      "X            set off an explosion ahead, under water\n"
+      "Delete       take the boat out of the water\n"
       "[ ]          sun lower, higher\n"
       "P            save a picture\n"
       "Tab          panel on, off\n"
@@ -85,10 +131,12 @@ Panel::~Panel() {
 }
 
 void Panel::Draw(int width, int height, double seconds, const Pointer& pointer,
-                 const SourceReport& report, const SeaFigures& figures, ViewSettings& settings) {
+                 const SourceReport& report, const SeaFigures& figures, const HelmReport& helm,
+                 ViewSettings& settings) {
   const double rate = 1.0 / std::max(seconds, 1e-4);
   frames_per_second_ += 0.1 * (rate - frames_per_second_);
-  if (!settings.show_panel && !settings.show_keys) return;
+  const bool show_helm = helm.aboard || !helm.line.empty();
+  if (!settings.show_panel && !settings.show_keys && !show_helm) return;
   ImGuiIO& io = ImGui::GetIO();
   io.DisplaySize = ImVec2(static_cast<float>(width), static_cast<float>(height));
   io.DeltaTime = static_cast<float>(std::max(seconds, 1e-4));
@@ -109,6 +157,7 @@ void Panel::Draw(int width, int height, double seconds, const Pointer& pointer,
     ShowSettings(settings);
     ImGui::End();
   }
+  if (show_helm) ShowHelm(helm);
   if (settings.show_keys) ShowKeys();
   ImGui::Render();
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());

@@ -4,6 +4,7 @@
 
 #include "client/app/frame_builder.h"
 #include "client/app/sea_source.h"
+#include "client/app/skipper.h"
 
 namespace onesea::client {
 
@@ -36,7 +37,8 @@ class Panel {
 
   /// Draws into the bound framebuffer of width x height pixels.
   void Draw(int width, int height, double seconds, const Pointer& pointer,
-            const SourceReport& report, const SeaFigures& figures, ViewSettings& settings);
+            const SourceReport& report, const SeaFigures& figures, const HelmReport& helm,
+            ViewSettings& settings);
 
   /// The pointer is over the panel: the camera should leave it alone.
   bool WantsPointer() const;

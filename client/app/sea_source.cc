@@ -49,7 +49,9 @@ class FileSource : public SeaSource {
 class ServerSource : public SeaSource, private SessionListener {
  public:
   ServerSource(std::string address, const std::string& session)
-      : address_(std::move(address)), session_(session) {
+      : address_(std::move(address)),
+        session_(session),
+        sender_(session, CommandsTo(ConnectTo(address_))) {
     SessionClientOptions options;
     options.session = session;
     options.every_frame = true;  // bodies and wakes move in every one
@@ -76,6 +78,7 @@ class ServerSource : public SeaSource, private SessionListener {
     return sea_ == nullptr ? nullptr : sea_->components();
   }
   std::shared_ptr<const WorldView> world() const override { return world_.view(); }
+  CommandSender* commands() override { return &sender_; }
   SimTime Now() override { return client_->Now().render; }
   SourceReport Report() override {
     const SeaTime now = client_->Now();
@@ -146,6 +149,7 @@ class ServerSource : public SeaSource, private SessionListener {
   LocalWorld world_;
   std::string link_ ABSL_GUARDED_BY(mutex_) = "connecting";
   absl::Status status_ ABSL_GUARDED_BY(mutex_);
+  CommandSender sender_;
   std::unique_ptr<SessionClient> client_;  // last: stops before what it calls is gone
 };
 

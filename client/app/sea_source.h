@@ -5,6 +5,7 @@
 
 #include "absl/status/statusor.h"
 #include "client/model/local_world.h"
+#include "client/net/command_sender.h"
 #include "common/base/sim_time.h"
 #include "common/sea/components.h"
 #include "common/wire/session_spec.h"
@@ -29,6 +30,8 @@ class SeaSource {
   virtual std::shared_ptr<const sea::Components> components() const = 0;
   /// Wakes and bodies; null: this source has none.
   virtual std::shared_ptr<const WorldView> world() const { return nullptr; }
+  /// The way for commands; null: there is none. Lives as long as this.
+  virtual CommandSender* commands() { return nullptr; }
   /// The moment to draw now.
   virtual SimTime Now() = 0;
   virtual SourceReport Report() = 0;

@@ -14,8 +14,10 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "client/app/body_models.h"
+#include "client/app/cockpit.h"
 #include "client/app/frame_builder.h"
 #include "client/app/png_writer.h"
+#include "client/app/pose_log.h"
 #include "client/app/window.h"
 #include "client/render/gl_objects.h"
 #include "client/render/offscreen_context.h"
@@ -27,6 +29,8 @@ namespace onesea::client {
 namespace {
 
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
+constexpr std::int64_t kLiveStepNs =
+    10'000'000;  // between looks at the keys while nothing is drawn
 
 absl::Status MakeFolder(const std::string& path) {
   std::error_code error;
@@ -53,23 +57,24 @@ class Scene {
     return std::unique_ptr<Scene>(new Scene(std::move(renderer), options));
   }
 
-  void DrawSea(SeaSource& source, SimTime time, const CameraControl& camera,
+  void DrawSea(SeaSource& source, SimTime time, const Cockpit& cockpit,
                const ViewSettings& settings, int width, int height, unsigned framebuffer) {
     // The place decides where foam is kept; the height over the waves is known after synthesis.
-    frame_.camera = camera.At(0.0);
+    frame_.camera = cockpit.At(0.0);
     if (const std::shared_ptr<const WorldView> world = source.world(); world != nullptr) {
       builder_.SetInteraction(world->shared_interaction());
-      frame_.hulls = models_.At(*world, time);
+      frame_.hulls = models_.At(*world, time, cockpit.own());
     }
     builder_.Fill(source.components(), time, frame_);
-    frame_.camera = camera.At(builder_.HeightAt(camera.place()));
+    frame_.camera = cockpit.At(builder_.HeightAt(cockpit.place()));
     ApplySettings(settings, frame_);
     renderer_->Draw(frame_, width, height, framebuffer);
   }
 
-  void DrawPanel(SeaSource& source, int width, int height, double seconds,
+  void DrawPanel(SeaSource& source, const HelmReport& helm, int width, int height, double seconds,
                  const Panel::Pointer& pointer, ViewSettings& settings) {
-    panel_.Draw(width, height, seconds, pointer, source.Report(), builder_.Figures(), settings);
+    panel_.Draw(width, height, seconds, pointer, source.Report(), builder_.Figures(), helm,
+                settings);
   }
   bool PanelWantsPointer() const { return panel_.WantsPointer(); }
 
@@ -97,11 +102,11 @@ class Scene {
   render::RenderFrame frame_;
 };
 
-void ApplyKeys(const WindowInput& input, double seconds, ViewerOptions& options) {
-  ViewSettings& settings = options.settings;
+void ApplyKeys(const WindowInput& input, double seconds, ViewSettings& settings, Cockpit& cockpit) {
   if (input.key_help) settings.show_keys = !settings.show_keys;
   if (input.key_panel) settings.show_panel = !settings.show_panel;
-  if (input.key_orbit) options.camera.ToggleOrbit();
+  if (input.key_orbit) cockpit.ToggleOrbit();
+  if (input.key_follow) cockpit.ToggleFollow();
   settings.sun_elevation_deg =
       std::clamp(settings.sun_elevation_deg + 10.0 * input.sun_up * seconds, -8.0, 90.0);
 }
@@ -112,6 +117,7 @@ absl::Status RunWindow(SeaSource& source, ViewerOptions options) {
   ONESEA_ASSIGN_OR_RETURN(std::unique_ptr<Window> window,
                           Window::Open("Onesea", options.width, options.height));
   ONESEA_ASSIGN_OR_RETURN(std::unique_ptr<Scene> scene, Scene::Create(options));
+  Cockpit cockpit(source, options.camera);
   std::int64_t last_ns = SystemClock().MonotonicNs();
   int pictures = 0;
   while (!window->ShouldClose()) {
@@ -127,9 +133,10 @@ absl::Status RunWindow(SeaSource& source, ViewerOptions options) {
     }
     if (scene->PanelWantsPointer())
       input.camera.turn_px = input.camera.tilt_px = input.camera.zoom = 0;
-    ApplyKeys(input, seconds, options);
-    options.camera.Move(input.camera, std::min(seconds, 0.2));
-    scene->DrawSea(source, source.Now(), options.camera, options.settings, width, height, 0);
+    ApplyKeys(input, seconds, options.settings, cockpit);
+    const SimTime time = source.Now();
+    cockpit.Update(input.skipper, input.camera, time, seconds);
+    scene->DrawSea(source, time, cockpit, options.settings, width, height, 0);
     if (input.key_picture) {
       ONESEA_RETURN_IF_ERROR(MakeFolder(options.out));
       const std::string path = absl::StrFormat("%s/picture_%03d.png", options.out, pictures++);
@@ -138,7 +145,7 @@ absl::Status RunWindow(SeaSource& source, ViewerOptions options) {
     }
     const Panel::Pointer pointer{input.pointer_x, input.pointer_y, input.pointer_pressed,
                                  input.wheel};
-    scene->DrawPanel(source, width, height, seconds, pointer, options.settings);
+    scene->DrawPanel(source, cockpit.report(), width, height, seconds, pointer, options.settings);
     window->Present();
   }
   return absl::OkStatus();
@@ -151,6 +158,7 @@ absl::Status RunHeadless(SeaSource& source, ViewerOptions options) {
   ONESEA_ASSIGN_OR_RETURN(std::unique_ptr<Scene> scene, Scene::Create(options));
   render::ColorTarget target;
   target.Resize(options.width, options.height, GL_RGBA8);
+  const Cockpit cockpit(source, options.camera);
   const int count =
       std::max(1, static_cast<int>(std::lround(options.seconds * options.frames_per_second)));
   const SimTime start = source.Now();
@@ -158,11 +166,11 @@ absl::Status RunHeadless(SeaSource& source, ViewerOptions options) {
   for (int n = 0; n < count; ++n) {
     ONESEA_RETURN_IF_ERROR(source.status());
     const SimTime time = start + SimTime::FromSeconds(n / options.frames_per_second);
-    scene->DrawSea(source, time, options.camera, options.settings, options.width, options.height,
+    scene->DrawSea(source, time, cockpit, options.settings, options.width, options.height,
                    target.framebuffer.id());
     if (options.settings.show_panel) {
-      scene->DrawPanel(source, options.width, options.height, 1.0 / options.frames_per_second, {},
-                       options.settings);
+      scene->DrawPanel(source, cockpit.report(), options.width, options.height,
+                       1.0 / options.frames_per_second, {}, options.settings);
     }
     ONESEA_RETURN_IF_ERROR(scene->SavePicture(absl::StrFormat("%s/frame_%05d.png", options.out, n),
                                               options.width, options.height));
@@ -174,6 +182,50 @@ absl::Status RunHeadless(SeaSource& source, ViewerOptions options) {
               options.width, options.height, std::filesystem::absolute(options.out).c_str(),
               count - 1);
   return absl::OkStatus();
+}
+
+absl::Status RunLive(SeaSource& source, ViewerOptions options) {
+  ONESEA_RETURN_IF_ERROR(MakeFolder(options.out));
+  ONESEA_ASSIGN_OR_RETURN(const std::unique_ptr<render::OffscreenContext> context,
+                          render::OffscreenContext::Create());
+  ONESEA_ASSIGN_OR_RETURN(std::unique_ptr<Scene> scene, Scene::Create(options));
+  std::unique_ptr<PoseLog> poses;
+  if (!options.poses.empty()) {
+    ONESEA_ASSIGN_OR_RETURN(poses, PoseLog::Open(options.poses));
+  }
+  render::ColorTarget target;
+  target.Resize(options.width, options.height, GL_RGBA8);
+  Cockpit cockpit(source, options.camera);
+  const std::int64_t start_ns = SystemClock().MonotonicNs();
+  double last_s = 0.0;
+  int pictures = 0, moment = 0;  // the moment of the next picture, in pictures
+  for (double now_s = 0.0; now_s < options.seconds;) {
+    ONESEA_RETURN_IF_ERROR(source.status());
+    const SimTime time = source.Now();
+    cockpit.Update(options.drive.At(now_s), {}, time, now_s - last_s);
+    last_s = now_s;
+    if (const auto world = source.world(); poses != nullptr && world != nullptr) {
+      poses->Write(*world, time, cockpit.own());
+    }
+    if (now_s * options.frames_per_second >= moment) {
+      moment = static_cast<int>(now_s * options.frames_per_second) + 1;
+      scene->DrawSea(source, time, cockpit, options.settings, options.width, options.height,
+                     target.framebuffer.id());
+      if (options.settings.show_panel) {
+        scene->DrawPanel(source, cockpit.report(), options.width, options.height,
+                         1.0 / options.frames_per_second, {}, options.settings);
+      }
+      ONESEA_RETURN_IF_ERROR(
+          scene->SavePicture(absl::StrFormat("%s/frame_%05d.png", options.out, pictures++),
+                             options.width, options.height));
+    }
+    const std::int64_t now_ns = SystemClock().MonotonicNs();
+    SystemClock().SleepUntil(now_ns + kLiveStepNs);
+    now_s = 1e-9 * static_cast<double>(SystemClock().MonotonicNs() - start_ns);
+  }
+  std::printf("%d pictures of %dx%d in %s, of %.1f s\n", pictures, options.width, options.height,
+              std::filesystem::absolute(options.out).c_str(), options.seconds);
+  return poses != nullptr ? poses->Close() : absl::OkStatus();
 }
 
 }  // namespace onesea::client

@@ -35,6 +35,13 @@ ABSL_FLAG(std::string, water, "II", "Jerlov water type: I, IB, II, III, 1C, 3C o
 ABSL_FLAG(int, grid, 256, "N of the N x N fields of each cascade: 64, 128, 256, 512 or 1024");
 ABSL_FLAG(int, samples, 0,
           "Samples per pixel on edges: 4, or 1 and smoothed afterwards; 0 chooses by the driver");
+ABSL_FLAG(bool, live, false, "Headless: draw the session's present, at most --fps a second");
+ABSL_FLAG(
+    std::string, drive, "",
+    "Headless: keys by second since the start, as 0=b,1=up,4=up+left,9=; implies --live. Keys: "
+    "up, down, left, right, b, space, x, delete");
+ABSL_FLAG(std::string, poses, "",
+          "Headless: CSV file for where every body was drawn; implies --live");
 ABSL_FLAG(bool, panel, false, "Headless: draw the panel into the pictures too");
 
 namespace onesea::client {
@@ -118,6 +125,12 @@ absl::StatusOr<ViewerOptions> ReadOptions() {
   ONESEA_RETURN_IF_ERROR(InRange("heading", heading, -360.0, 360.0));
   ONESEA_ASSIGN_OR_RETURN(options.camera, CameraControl::FromPreset(absl::GetFlag(FLAGS_camera),
                                                                     (90.0 - heading) * kDegree));
+  ONESEA_ASSIGN_OR_RETURN(options.drive, DriveScript::Parse(absl::GetFlag(FLAGS_drive)));
+  options.poses = absl::GetFlag(FLAGS_poses);
+  options.live = absl::GetFlag(FLAGS_live) || !options.drive.empty() || !options.poses.empty();
+  if (options.live && !absl::GetFlag(FLAGS_headless)) {
+    return absl::InvalidArgumentError("--live, --drive and --poses need --headless");
+  }
   if (absl::GetFlag(FLAGS_headless)) options.settings.show_panel = absl::GetFlag(FLAGS_panel);
   return options;
 }
@@ -129,8 +142,9 @@ absl::Status Run() {
                              : OpenSessionFile(file);
   if (!opened.ok()) return opened.status();
   SeaSource& source = **opened;
-  return absl::GetFlag(FLAGS_headless) ? RunHeadless(source, std::move(options))
-                                       : RunWindow(source, std::move(options));
+  if (!absl::GetFlag(FLAGS_headless)) return RunWindow(source, std::move(options));
+  return options.live ? RunLive(source, std::move(options))
+                      : RunHeadless(source, std::move(options));
 }
 
 // Abseil names flags with underscores; people write --sun-elevation. Values are left alone.
@@ -155,6 +169,7 @@ int main(int argc, char** argv) {
       "  onesea-view                                       the only session of 127.0.0.1:7310\n"
       "  onesea-view --server=HOST:PORT --session=NAME     another one\n"
       "  onesea-view --headless --seconds=5 --size=1280x720 --out=DIR   PNG files, no display\n"
+      "  onesea-view --headless --drive=0=b,2=up,8=up+left --seconds=15      drives a boat\n"
       "  onesea-view --offline=FILE.textproto              no server\n\n"
       "In the window: H lists the keys.");
   absl::FlagsUsageConfig config;

@@ -33,15 +33,21 @@ void OnKey(GLFWwindow* window, int key, int, int action, int) {
   if (key == GLFW_KEY_P) input.key_picture = true;
   if (key == GLFW_KEY_O) input.key_orbit = true;
   if (key == GLFW_KEY_TAB) input.key_panel = true;
+  if (key == GLFW_KEY_C) input.key_follow = true;
+  if (key == GLFW_KEY_B) input.skipper.spawn = true;
+  if (key == GLFW_KEY_SPACE) input.skipper.crate = true;
+  if (key == GLFW_KEY_X) input.skipper.explode = true;
+  if (key == GLFW_KEY_DELETE) input.skipper.remove = true;
 }
 
 void OnScroll(GLFWwindow* window, double, double y) {
   InputOf(window).wheel += static_cast<float>(y);
 }
 
+bool IsHeld(GLFWwindow* window, int key) { return glfwGetKey(window, key) == GLFW_PRESS; }
+
 double Axis(GLFWwindow* window, int negative, int positive) {
-  return (glfwGetKey(window, positive) == GLFW_PRESS ? 1.0 : 0.0) -
-         (glfwGetKey(window, negative) == GLFW_PRESS ? 1.0 : 0.0);
+  return (IsHeld(window, positive) ? 1.0 : 0.0) - (IsHeld(window, negative) ? 1.0 : 0.0);
 }
 
 }  // namespace
@@ -67,6 +73,8 @@ absl::StatusOr<std::unique_ptr<Window>> Window::Open(const std::string& title, i
   }
   glfwMakeContextCurrent(impl->window);
   glfwSwapInterval(1);
+  // A tap that falls between two slow pictures still counts.
+  glfwSetInputMode(impl->window, GLFW_STICKY_KEYS, GLFW_TRUE);
   glfwSetWindowUserPointer(impl->window, &impl->input);
   glfwSetKeyCallback(impl->window, OnKey);
   glfwSetScrollCallback(impl->window, OnScroll);
@@ -107,9 +115,13 @@ WindowInput Window::Poll() {
   input.camera.forward = Axis(window, GLFW_KEY_S, GLFW_KEY_W);
   input.camera.right = Axis(window, GLFW_KEY_A, GLFW_KEY_D);
   input.camera.up = Axis(window, GLFW_KEY_Q, GLFW_KEY_E);
-  input.camera.fast = glfwGetKey(window, GLFW_KEY_LEFT_SHIFT) == GLFW_PRESS;
+  input.camera.fast = IsHeld(window, GLFW_KEY_LEFT_SHIFT);
   input.camera.zoom = input.wheel;
   input.sun_up = Axis(window, GLFW_KEY_LEFT_BRACKET, GLFW_KEY_RIGHT_BRACKET);
+  input.skipper.helm = {.ahead = IsHeld(window, GLFW_KEY_UP),
+                        .astern = IsHeld(window, GLFW_KEY_DOWN),
+                        .port = IsHeld(window, GLFW_KEY_LEFT),
+                        .starboard = IsHeld(window, GLFW_KEY_RIGHT)};
   return input;
 }
 

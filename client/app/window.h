@@ -5,6 +5,7 @@
 
 #include "absl/status/statusor.h"
 #include "client/app/camera_control.h"
+#include "client/app/skipper.h"
 
 namespace onesea::client {
 
@@ -15,7 +16,9 @@ struct WindowInput {
   bool pointer_pressed = false;
   float wheel = 0;
   bool key_help = false, key_picture = false, key_orbit = false, key_panel = false;
+  bool key_follow = false;
   double sun_up = 0;  ///< [-1, 1], keys held
+  SkipperInput skipper;
 };
 
 /// A window with an OpenGL 3.3 core context, current on this thread. The only file that knows GLFW.
