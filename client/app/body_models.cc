@@ -32,6 +32,8 @@ BodyModels::Model BodyModels::MakeModel(const wire::BodyInfo& info) {
     case wire::ShapeKind::kCylinder:
       if (named("buoy")) return {render::BuoyModel(shape.radius_m, shape.length_m), {}};
       return {render::BarrelModel(shape.radius_m, shape.length_m), {}};
+    case wire::ShapeKind::kCapsule:
+      return {render::CapsuleModel(shape.radius_m, shape.length_m), {}};
     case wire::ShapeKind::kSphere:
       return {render::BallModel(shape.radius_m), {}};
     default:

@@ -46,6 +46,12 @@ absl::StatusOr<CameraControl> CameraControl::FromPreset(std::string_view preset,
       absl::StrCat("--camera=", std::string(preset), ": choose one of ", names));
 }
 
+void CameraControl::PlaceAt(Vec3d position, double pitch_rad) {
+  camera_.position_m = position;
+  camera_.pitch_rad = pitch_rad;
+  rides_ = orbiting_ = false;
+}
+
 void CameraControl::ToggleOrbit() {
   orbiting_ = !orbiting_;
   if (!orbiting_) return;

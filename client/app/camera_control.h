@@ -22,6 +22,9 @@ class CameraControl {
   /// "orbit" (circles a point 60 m away). InvalidArgument listing them for another name.
   static absl::StatusOr<CameraControl> FromPreset(std::string_view preset, double heading_rad);
 
+  /// A camera that stays at a place.
+  void PlaceAt(Vec3d position_m, double pitch_rad);
+
   void Move(const CameraInput& input, double seconds);
   void ToggleOrbit();
   /// Flies from where another camera is.

@@ -9,6 +9,8 @@ namespace onesea::client {
 namespace {
 
 constexpr sea::FoamWindowOptions kFoamOptions;
+// While the weather changes the sea over terrain is reckoned anew this often.
+constexpr double kWeightStep = 0.005;
 
 }  // namespace
 
@@ -24,6 +26,31 @@ void FrameBuilder::Adopt(const std::shared_ptr<const sea::Components>& component
   foam_ = std::make_unique<sea::FoamWindow>(components, kFoamOptions);
   snapshots_ = std::make_unique<sea::SnapshotBuilder>(components);
   snapshot_ = nullptr;
+  attenuation_ = nullptr;
+}
+
+void FrameBuilder::SetTerrain(std::shared_ptr<const sea::Terrain> terrain) {
+  if (terrain == terrain_) return;
+  terrain_ = std::move(terrain);
+  attenuation_ = nullptr;
+}
+
+void FrameBuilder::UpdateAttenuation() {
+  if (terrain_ == nullptr) {
+    attenuation_grid_ = nullptr;
+    return;
+  }
+  const std::vector<double> weights = sea::WeatherWeights(components_->recipe, time_);
+  const auto close = [](double a, double b) { return std::abs(a - b) < kWeightStep; };
+  if (attenuation_ == nullptr) {
+    attenuation_ = std::make_unique<sea::Attenuation>(components_, *terrain_);
+  } else if (std::equal(weights.begin(), weights.end(), attenuation_weights_.begin(),
+                        attenuation_weights_.end(), close)) {
+    return;
+  }
+  attenuation_weights_ = weights;
+  attenuation_grid_ =
+      std::make_shared<const sea::AttenuationGrid>(attenuation_->At(attenuation_weights_));
 }
 
 void FrameBuilder::FillWeather(render::RenderFrame& frame) const {
@@ -93,6 +120,10 @@ void FrameBuilder::Fill(const std::shared_ptr<const sea::Components>& components
   frame.choppiness = components->recipe.choppiness;
   FillWeather(frame);
   FillPatches(frame);
+  UpdateAttenuation();
+  frame.terrain = terrain_;
+  frame.attenuation = attenuation_grid_;
+  frame.water_level_m = water_level_m_;
 }
 
 double FrameBuilder::HeightAt(Vec2d place) {
@@ -100,8 +131,9 @@ double FrameBuilder::HeightAt(Vec2d place) {
   if (snapshot_ == nullptr) snapshot_ = snapshots_->At(time_, sea::QueryDetail::kHeight);
   sea::SurfaceSample sample;
   snapshot_->Sample({&place, 1}, {&sample, 1});
-  if (interaction_ == nullptr) return sample.height_m;
-  return sample.height_m + sea::SampleInteraction(*interaction_, place).height_m;
+  const double height_m = water_level_m_ + sample.height_m;
+  if (interaction_ == nullptr) return height_m;
+  return height_m + sea::SampleInteraction(*interaction_, place).height_m;
 }
 
 SeaFigures FrameBuilder::Figures() const {

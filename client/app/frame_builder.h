@@ -6,11 +6,13 @@
 #include <vector>
 
 #include "client/render/render_frame.h"
+#include "common/sea/attenuation.h"
 #include "common/sea/components.h"
 #include "common/sea/foam.h"
 #include "common/sea/interaction_field.h"
 #include "common/sea/point_query.h"
 #include "common/sea/surface.h"
+#include "common/sea/terrain.h"
 
 namespace onesea::client {
 
@@ -41,6 +43,10 @@ class FrameBuilder {
   /// HeightAt(). A field that the last snapshot held too is not uploaded anew.
   void SetInteraction(std::shared_ptr<const sea::InteractionSnapshot> interaction);
 
+  /// From the next Fill() on, draws this land and seabed (null: neither) and the sea lower over it.
+  void SetTerrain(std::shared_ptr<const sea::Terrain> terrain);
+  void SetWaterLevel(double level_m) { water_level_m_ = level_m; }
+
   /// Height of the sea at a place at the time of the last Fill().
   double HeightAt(Vec2d place);
 
@@ -50,6 +56,7 @@ class FrameBuilder {
   void Adopt(const std::shared_ptr<const sea::Components>& components);
   void FillWeather(render::RenderFrame& frame) const;
   void FillPatches(render::RenderFrame& frame) const;
+  void UpdateAttenuation();
 
   int grid_size_;
   SimTime time_;
@@ -62,6 +69,11 @@ class FrameBuilder {
   std::shared_ptr<const sea::InteractionSnapshot> interaction_;
   std::vector<std::uint64_t> versions_;  // of each field of interaction_
   std::uint64_t last_version_ = 0;
+  std::shared_ptr<const sea::Terrain> terrain_;
+  double water_level_m_ = 0.0;
+  std::unique_ptr<sea::Attenuation> attenuation_;  // of components_ over terrain_
+  std::vector<double> attenuation_weights_;        // of the weather, of attenuation_grid_
+  std::shared_ptr<const sea::AttenuationGrid> attenuation_grid_;
 };
 
 }  // namespace onesea::client

@@ -11,6 +11,7 @@
 #include "client/net/session_client.h"
 #include "common/base/check.h"
 #include "common/base/clock.h"
+#include "common/ingest/terrain_file.h"
 #include "common/wire/session_file.h"
 
 namespace onesea::client {
@@ -18,13 +19,16 @@ namespace {
 
 class FileSource : public SeaSource {
  public:
-  FileSource(std::string path, SessionSpec spec, std::shared_ptr<const sea::Components> components)
+  FileSource(std::string path, SessionSpec spec, std::shared_ptr<const sea::Components> components,
+             std::shared_ptr<const sea::Terrain> terrain)
       : path_(std::move(path)),
         speed_(spec.speed),
         components_(std::move(components)),
+        terrain_(std::move(terrain)),
         start_ns_(SystemClock().MonotonicNs()) {}
 
   std::shared_ptr<const sea::Components> components() const override { return components_; }
+  std::shared_ptr<const sea::Terrain> terrain() const override { return terrain_; }
   SimTime Now() override {
     return SimTime::FromSeconds(speed_ * 1e-9 *
                                 static_cast<double>(SystemClock().MonotonicNs() - start_ns_));
@@ -43,6 +47,7 @@ class FileSource : public SeaSource {
   std::string path_;
   double speed_;
   std::shared_ptr<const sea::Components> components_;
+  std::shared_ptr<const sea::Terrain> terrain_;
   std::int64_t start_ns_;
 };
 
@@ -79,6 +84,7 @@ class ServerSource : public SeaSource, private SessionListener {
   }
   std::shared_ptr<const WorldView> world() const override { return world_.view(); }
   CommandSender* commands() override { return &sender_; }
+  std::vector<wire::Spray> TakeSpray() override { return world_.TakeSpray(); }
   SimTime Now() override { return client_->Now().render; }
   SourceReport Report() override {
     const SeaTime now = client_->Now();
@@ -180,7 +186,14 @@ absl::StatusOr<std::unique_ptr<SeaSource>> OpenSessionFile(const std::string& pa
   ONESEA_ASSIGN_OR_RETURN(SessionSpec spec, wire::ReadSessionFile(path));
   ONESEA_ASSIGN_OR_RETURN(std::shared_ptr<const sea::Components> components,
                           sea::BuildComponents(spec.recipe));
-  return std::make_unique<FileSource>(path, std::move(spec), std::move(components));
+  std::shared_ptr<const sea::Terrain> terrain;
+  if (!spec.world.terrain_path.empty()) {
+    ONESEA_ASSIGN_OR_RETURN(sea::Terrain read,
+                            ingest::ReadTerrainFile(spec.world.terrain_path, {}));
+    terrain = std::make_shared<const sea::Terrain>(std::move(read));
+  }
+  return std::make_unique<FileSource>(path, std::move(spec), std::move(components),
+                                      std::move(terrain));
 }
 
 absl::StatusOr<std::unique_ptr<SeaSource>> JoinServer(const std::string& address,

@@ -2,12 +2,14 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "absl/status/statusor.h"
 #include "client/model/local_world.h"
 #include "client/net/command_sender.h"
 #include "common/base/sim_time.h"
 #include "common/sea/components.h"
+#include "common/sea/terrain.h"
 #include "common/wire/session_spec.h"
 
 namespace onesea::client {
@@ -32,6 +34,10 @@ class SeaSource {
   virtual std::shared_ptr<const WorldView> world() const { return nullptr; }
   /// The way for commands; null: there is none. Lives as long as this.
   virtual CommandSender* commands() { return nullptr; }
+  /// Land and seabed; null: this source has none.
+  virtual std::shared_ptr<const sea::Terrain> terrain() const { return nullptr; }
+  /// Spray since the last call.
+  virtual std::vector<wire::Spray> TakeSpray() { return {}; }
   /// The moment to draw now.
   virtual SimTime Now() = 0;
   virtual SourceReport Report() = 0;

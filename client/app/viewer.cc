@@ -18,6 +18,7 @@
 #include "client/app/frame_builder.h"
 #include "client/app/png_writer.h"
 #include "client/app/pose_log.h"
+#include "client/app/spray_bursts.h"
 #include "client/app/window.h"
 #include "client/render/gl_objects.h"
 #include "client/render/offscreen_context.h"
@@ -63,8 +64,12 @@ class Scene {
     frame_.camera = cockpit.At(0.0);
     if (const std::shared_ptr<const WorldView> world = source.world(); world != nullptr) {
       builder_.SetInteraction(world->shared_interaction());
+      builder_.SetWaterLevel(world->water_level_m());
       frame_.hulls = models_.At(*world, time, cockpit.own());
+      spray_.Add(source.TakeSpray(), world->time());
+      frame_.spray = spray_.At(time);
     }
+    builder_.SetTerrain(source.terrain());
     builder_.Fill(source.components(), time, frame_);
     frame_.camera = cockpit.At(builder_.HeightAt(cockpit.place()));
     ApplySettings(settings, frame_);
@@ -99,6 +104,7 @@ class Scene {
   Panel panel_;
   FrameBuilder builder_;
   BodyModels models_;
+  SprayBursts spray_;
   render::RenderFrame frame_;
 };
 

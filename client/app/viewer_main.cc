@@ -14,6 +14,7 @@
 #include "absl/strings/str_split.h"
 #include "client/app/viewer.h"
 #include "common/base/check.h"
+#include "common/base/limits.h"
 
 ABSL_FLAG(std::string, server, "127.0.0.1:7310", "HOST:PORT of the server");
 ABSL_FLAG(std::string, session, "", "Session to watch; default: the server's only one");
@@ -24,6 +25,9 @@ ABSL_FLAG(double, fps, 30.0, "Headless: pictures per second of sea, [0.01, 240]"
 ABSL_FLAG(std::string, size, "1280x720", "WIDTHxHEIGHT in pixels, 64x64 to 7680x4320");
 ABSL_FLAG(std::string, out, "frames", "Folder for pictures, made if missing");
 ABSL_FLAG(std::string, camera, "deck", "Where to look from: deck, bridge, mast, swimmer or orbit");
+ABSL_FLAG(std::string, eye, "",
+          "X,Y,Z in metres (east, north, up): place the camera there instead of the origin");
+ABSL_FLAG(double, pitch, 0.0, "With --eye: degrees up, [-85, 85]");
 ABSL_FLAG(double, heading, 60.0, "Direction of view in degrees clockwise from north");
 ABSL_FLAG(double, sun_elevation, 24.0, "Height of the sun in degrees, [-11, 90]");
 ABSL_FLAG(double, sun_azimuth, 100.0, "Where the sun stands, degrees clockwise from north");
@@ -96,6 +100,25 @@ absl::Status ReadWater(ViewSettings& settings) {
       absl::StrCat("--water=", wanted, ": choose one of I, IB, II, III, 1C, 3C, 5C"));
 }
 
+absl::Status ReadEye(CameraControl& camera) {
+  const std::string text = absl::GetFlag(FLAGS_eye);
+  if (text.empty()) return absl::OkStatus();
+  const std::vector<std::string> parts = absl::StrSplit(text, ',');
+  double place[3] = {};
+  for (std::size_t n = 0; n < 3; ++n) {
+    const double limit = n == 2 ? 20'000.0 : kQueryCoordinateMaxM;
+    if (parts.size() != 3 || !absl::SimpleAtod(parts[n], &place[n]) ||
+        !(std::abs(place[n]) <= limit)) {
+      return absl::InvalidArgumentError(
+          absl::StrCat("--eye=", text, ": write it as X,Y,Z in metres"));
+    }
+  }
+  const double pitch = absl::GetFlag(FLAGS_pitch);
+  ONESEA_RETURN_IF_ERROR(InRange("pitch", pitch, -85.0, 85.0));
+  camera.PlaceAt({place[0], place[1], place[2]}, pitch * kDegree);
+  return absl::OkStatus();
+}
+
 absl::StatusOr<ViewerOptions> ReadOptions() {
   ViewerOptions options;
   ONESEA_RETURN_IF_ERROR(ReadSize(options));
@@ -131,6 +154,7 @@ absl::StatusOr<ViewerOptions> ReadOptions() {
   if (options.live && !absl::GetFlag(FLAGS_headless)) {
     return absl::InvalidArgumentError("--live, --drive and --poses need --headless");
   }
+  ONESEA_RETURN_IF_ERROR(ReadEye(options.camera));
   if (absl::GetFlag(FLAGS_headless)) options.settings.show_panel = absl::GetFlag(FLAGS_panel);
   return options;
 }

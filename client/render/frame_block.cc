@@ -62,7 +62,8 @@ void FillView(const RenderFrame& frame, int width, int height, FrameBlock& block
 
   // Rows: picture x, y, depth unused, w = distance along the view. Depth is set by the shader.
   const glm::dvec3 x_row = right / (tangent * aspect), y_row = up / tangent;
-  const glm::dvec3 eye(0.0, 0.0, camera.position_m.z);
+  const double eye_m = camera.position_m.z - frame.water_level_m;
+  const glm::dvec3 eye(0.0, 0.0, eye_m);
   glm::dmat4 matrix(0.0);
   for (int i = 0; i < 3; ++i) {
     matrix[i][0] = x_row[i];
@@ -76,7 +77,7 @@ void FillView(const RenderFrame& frame, int width, int height, FrameBlock& block
   block.ray_forward = Pack(glm::vec3(forward), 2.0 * tangent / height);
   block.ray_right = Pack(glm::vec3(right * tangent * aspect), width);
   block.ray_up = Pack(glm::vec3(up * tangent), height);
-  block.eye = Pack(0.0, 0.0, camera.position_m.z, std::fmod(frame.time_s, 3600.0));
+  block.eye = Pack(0.0, 0.0, eye_m, std::fmod(frame.time_s, 3600.0));
 }
 
 void FillLight(const RenderFrame& frame, const SkyLight& light, FrameBlock& block) {
@@ -95,6 +96,9 @@ void FillLight(const RenderFrame& frame, const SkyLight& light, FrameBlock& bloc
       Pack(BubblyReflectance(optics, 0.10f) * (0.54f / 4.0f) * down, frame.time_s * 1e-5);
   block.crest_radiance =
       Pack(bubbly * light.sun_irradiance * (1.0f / static_cast<float>(kPi)), 0.0);
+  // Transmission both ways over n², as in WaterLeavingRadiance().
+  block.bottom_irradiance = Pack(down * (0.54f / static_cast<float>(kPi)), 0.0);
+  block.water_kd = Pack(optics.kd, 0.0);
   block.haze = Pack(light.extinction_per_m, 0.0);
   block.cloud_radiance = Pack(light.cloud_radiance, 1.0 / kCloudMapM);
 }
@@ -140,15 +144,21 @@ void FillFoam(const RenderFrame& frame, double slope_variance, FrameBlock& block
 
 void FillWaves(const RenderFrame& frame, const std::vector<SlopeStats>& stats, FrameBlock& block) {
   const Vec2d eye{frame.camera.position_m.x, frame.camera.position_m.y};
+  double slopes = 1e-12, heights_m2 = 0.0;
+  for (const SlopeStats& s : stats) {
+    slopes += s.xx + s.yy;
+    heights_m2 += s.height_variance_m2;
+  }
+  block.water_kd.w = static_cast<float>(4.0 * std::sqrt(heights_m2));
   for (std::size_t c = 0; c < frame.cascades.size(); ++c) {
     const CascadePlanes& planes = frame.cascades[c];
     block.cascade_map[c] =
         TileMap(eye, planes.length_m, planes.rotation_rad, planes.length_m / planes.grid_size);
-    block.cascade_turn[c] =
-        Pack(std::cos(planes.rotation_rad), std::sin(planes.rotation_rad), 0, 0);
+    block.cascade_turn[c] = Pack(std::cos(planes.rotation_rad), std::sin(planes.rotation_rad),
+                                 stats[c].height_variance_m2, 0);
     const SlopeStats& s = stats[c];
     const double trace = std::max(s.xx + s.yy, 1e-12);
-    block.cascade_share[c] = Pack(s.xx / trace, s.yy / trace, s.xy / trace, 0);
+    block.cascade_share[c] = Pack(s.xx / trace, s.yy / trace, s.xy / trace, trace / slopes);
   }
   const std::size_t regular =
       std::min<std::size_t>(frame.regular_waves.size(), kRenderRegularWavesMax);

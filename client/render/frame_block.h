@@ -10,7 +10,8 @@
 namespace onesea::render {
 
 /// Mirror of the uniform block `Frame` (shaders/frame.glsl, std140): vectors only, so that both
-/// languages agree on every offset. Positions are relative to the eye's horizontal position.
+/// languages agree on every offset. Positions are relative to the eye's
+/// horizontal position, heights to the water level.
 struct FrameBlock {
   glm::mat4 clip_from_world;
   glm::vec4 ray_forward;     // w: radians per pixel
@@ -36,13 +37,21 @@ struct FrameBlock {
   glm::vec4 grid;           // x: columns, y: first azimuth, z: azimuth step, w: log radius step
   glm::vec4 grid_rows;      // x: first row's log radius, y: 1 if row 0 is the nadir
   glm::vec4 counts;         // x: cascades, y: regular waves, z: texels per side, w: patches
-  glm::vec4 cascade_map[kRenderCascadesMax];   // xy: offset [turns], z: 1/length, w: log2 texel [m]
-  glm::vec4 cascade_turn[kRenderCascadesMax];  // xy: cos, sin of the rotation
+  glm::vec4 cascade_map[kRenderCascadesMax];  // xy: offset [turns], z: 1/length, w: log2 texel [m]
   glm::vec4
-      cascade_share[kRenderCascadesMax];  // xyz: xx, yy, xy of its slope variance, over their trace
-  glm::vec4 regular[kRenderRegularWavesMax];  // kx, ky, amplitude, phase at the eye
-  glm::vec4 patch_map[kRenderPatchesMax];     // xy: offset under the eye, zw: 1/extent [1/m]
-  glm::vec4 patch_cell[kRenderPatchesMax];    // x: log2 of the cell [m], y: layer
+      cascade_turn[kRenderCascadesMax];  // xy: cos, sin of the rotation; z: height variance [m²]
+  glm::vec4 cascade_share[kRenderCascadesMax];  // xyz: xx, yy, xy of its slope variance, over their
+                                                // trace; w: that trace over all cascades'
+  glm::vec4 regular[kRenderRegularWavesMax];    // kx, ky, amplitude, phase at the eye
+  glm::vec4 patch_map[kRenderPatchesMax];       // xy: offset under the eye, zw: 1/extent [1/m]
+  glm::vec4 patch_cell[kRenderPatchesMax];      // x: log2 of the cell [m], y: layer
+  glm::vec4 ground_place;                       // xy: offset under the eye, zw: 1/extent [1/m]
+  glm::vec4 ground_area;        // x, y of the terrain's south-west and north-east ends [m]
+  glm::vec4 ground_noise;       // xy: the eye's place modulo 4096 m; z: log2 of the texel [m];
+                                // w: water level above the terrain's zero [m]
+  glm::vec4 attenuation_place;  // xy: offset under the eye, zw: 1/extent [1/m]
+  glm::vec4 water_kd;           // rgb: diffuse attenuation [1/m]; w: Hs of the open sea [m]
+  glm::vec4 bottom_irradiance;  // rgb: daylight below the surface, seen from above it, over π
 };
 
 /// Slope variance [-] of one cascade, measured over its tile.

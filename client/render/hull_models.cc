@@ -273,6 +273,30 @@ SharedHullMesh BallModel(double radius) {
   return Share(painter.Finish());
 }
 
+SharedHullMesh CapsuleModel(double radius, double length) {
+  ONESEA_CHECK(radius > 0 && length > 0);
+  constexpr int kRings = 9;  // of each end
+  std::vector<Vec2d> profile;
+  std::vector<Paint> paints;
+  for (int n = 0; n <= 2 * kRings + 1; ++n) {
+    const bool lower = n <= kRings;
+    const double angle = 0.5 * kPi * (lower ? n : n - 1) / kRings;
+    const bool tip = n == 0 || n == 2 * kRings + 1;
+    profile.push_back({tip ? 0.0 : radius * std::sin(angle),
+                       (lower ? -0.5 : 0.5) * length - radius * std::cos(angle)});
+    // The last ring before the straight part, either side.
+    if (n > 0) paints.push_back(n == kRings || n == kRings + 2 ? kWhite : kTopside);
+  }
+  HullPainter painter;
+  painter.Lathe(profile, paints, 28);
+  HullMesh mesh = painter.Finish();
+  for (HullCorner& corner : mesh.corners) {  // z becomes x
+    std::rotate(corner.position_m.begin(), corner.position_m.begin() + 2, corner.position_m.end());
+    std::rotate(corner.normal.begin(), corner.normal.begin() + 2, corner.normal.end());
+  }
+  return Share(std::move(mesh));
+}
+
 SharedHullMesh RaftModel(Vec3d size) {
   ONESEA_CHECK(size.x > 0 && size.y > 0 && size.z > 0);
   HullPainter painter;

@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "common/base/vec.h"
+#include "common/sea/attenuation.h"
 #include "common/sea/surface.h"
+#include "common/sea/terrain.h"
 
 /// Everything one picture needs, as plain data: the renderer knows no session, no network and no
 /// clock. World frame: ENU, z up, metres, radians, seconds. Spans are borrowed for one Draw() call.
@@ -96,6 +98,16 @@ struct HullInstance {
   std::array<float, 3> colour{1, 1, 1};             ///< linear sRGB, of the tinted parts
 };
 
+/// Water thrown into the air at one place and moment: a burst of drops and mist that flies on by
+/// itself. Which drops it has follows from the seed.
+struct SprayBurst {
+  Vec3d position_m;        ///< where it was thrown up
+  Vec3d velocity_m_per_s;  ///< mean of its drops at that moment
+  double mass_kg = 1.0;    ///< > 0; how many drops and how wide they fly
+  double age_s = 0.0;      ///< since then; after kSprayLifeS nothing is left
+  std::uint32_t seed = 1;
+};
+
 struct Quality {
   int samples = 0;  ///< of the geometry pass: 4, 1 with edges smoothed afterwards, or 0 for
                     ///< 1 on a software renderer and 4 on a graphics card
@@ -118,13 +130,23 @@ struct RenderFrame {
   FoamCells foam;
   std::vector<WaterPatch> patches;  ///< the first kRenderPatchesMax in view are drawn
   std::vector<HullInstance> hulls;
-  double exposure_stops = 0.0;  ///< on top of the metered exposure
+  /// Land and seabed, drawn where it is in view and seen through shallow water; null: neither.
+  /// Renderers keep a copy until the pointer changes.
+  std::shared_ptr<const sea::Terrain> terrain;
+  /// What the cascades and, last, the regular waves are multiplied with; null or without cells: 1.
+  /// Kept until the pointer changes. Its planes: at least as many as there are cascades.
+  std::shared_ptr<const sea::AttenuationGrid> attenuation;
+  double water_level_m = 0.0;     ///< of the whole sea above z = 0; waves and patches are added
+  std::vector<SprayBurst> spray;  ///< the last kRenderSprayMax are drawn
+  double exposure_stops = 0.0;    ///< on top of the metered exposure
   Quality quality;
 };
 
 inline constexpr int kRenderCascadesMax = 8;
 inline constexpr int kRenderRegularWavesMax = 32;
 inline constexpr int kRenderPatchesMax = 6;
+inline constexpr int kRenderSprayMax = 512;
+inline constexpr double kSprayLifeS = 3.0;
 
 /// Borrows the planes of `fields`, which must hold sea::kRenderFields.
 CascadePlanes PlanesOf(const sea::CascadeFields& fields, const sea::Cascade& cascade);

@@ -6,14 +6,18 @@
 #include <optional>
 
 #include "client/render/atmosphere.h"
+#include "client/render/attenuation_texture.h"
 #include "client/render/frame_block.h"
+#include "client/render/ground_textures.h"
 #include "client/render/passes/classify.h"
 #include "client/render/passes/hulls.h"
 #include "client/render/passes/ripples.h"
 #include "client/render/passes/sky.h"
 #include "client/render/passes/smooth_steps.h"
+#include "client/render/passes/spray.h"
 #include "client/render/passes/surface.h"
 #include "client/render/passes/surface_grid.h"
+#include "client/render/passes/terrain.h"
 #include "client/render/passes/tone_map.h"
 #include "client/render/patch_textures.h"
 #include "client/render/sea_textures.h"
@@ -37,7 +41,7 @@ bool IsSoftware() {
 
 struct Renderer::Impl {
   Impl(RipplePass r, SurfaceGridPass g, ClassifyPass c, SkyPass s, SurfacePass w, SmoothStepsPass e,
-       HullPass h, ToneMapPass t)
+       HullPass h, TerrainPass l, SprayPass d, ToneMapPass t)
       : ripples(std::move(r)),
         grid(std::move(g)),
         classify(std::move(c)),
@@ -45,6 +49,8 @@ struct Renderer::Impl {
         surface(std::move(w)),
         smooth_steps(std::move(e)),
         hulls(std::move(h)),
+        terrain(std::move(l)),
+        spray(std::move(d)),
         tone(std::move(t)) {}
 
   // The light of the last picture, kept until sun, clouds or haze change.
@@ -54,7 +60,11 @@ struct Renderer::Impl {
     friend bool operator==(const LightKey&, const LightKey&) = default;
   };
 
+  struct Picture;
   void UpdateLight(const RenderFrame& frame);
+  void UploadSea(Picture& picture);
+  OceanGrid FillBlock(Picture& picture);
+  void ShadeSea(const Picture& picture, const HullMirror& mirror);
   void UploadBlock(const FrameBlock& block);
   template <typename F>
   void Pass(const char* name, F&& draw);
@@ -66,9 +76,13 @@ struct Renderer::Impl {
   SurfacePass surface;
   SmoothStepsPass smooth_steps;
   HullPass hulls;
+  TerrainPass terrain;
+  SprayPass spray;
   ToneMapPass tone;
   SeaTextures sea;
   PatchTextures patches;
+  GroundTextures ground;
+  AttenuationTexture attenuation;
   ColorTarget scene;
   VertexArray empty;
   Buffer block_buffer;
@@ -121,16 +135,87 @@ absl::StatusOr<std::unique_ptr<Renderer>> Renderer::Create() {
   ONESEA_ASSIGN_OR_RETURN(SurfacePass surface, SurfacePass::Create());
   ONESEA_ASSIGN_OR_RETURN(SmoothStepsPass smooth_steps, SmoothStepsPass::Create());
   ONESEA_ASSIGN_OR_RETURN(HullPass hulls, HullPass::Create());
+  ONESEA_ASSIGN_OR_RETURN(TerrainPass terrain, TerrainPass::Create());
+  ONESEA_ASSIGN_OR_RETURN(SprayPass spray, SprayPass::Create());
   ONESEA_ASSIGN_OR_RETURN(ToneMapPass tone, ToneMapPass::Create());
   return std::unique_ptr<Renderer>(new Renderer(std::make_unique<Impl>(
       std::move(ripples), std::move(grid), std::move(classify), std::move(sky), std::move(surface),
-      std::move(smooth_steps), std::move(hulls), std::move(tone))));
+      std::move(smooth_steps), std::move(hulls), std::move(terrain), std::move(spray),
+      std::move(tone))));
 }
 
 Renderer::Renderer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Renderer::~Renderer() = default;
 void Renderer::MeasurePasses(bool measure) { impl_->measure = measure; }
 const std::vector<PassTime>& Renderer::pass_times() const { return impl_->pass_times; }
+
+// What a picture is made of, beside what the passes keep.
+struct Renderer::Impl::Picture {
+  const RenderFrame& frame;
+  int width, height, samples;
+  std::vector<SlopeStats> stats{};
+  double displacement_max_m = 0.0;  // of the surface, any way
+  FrameBlock block{};
+  bool terrain = false;  // in view
+};
+
+void Renderer::Impl::UploadSea(Picture& picture) {
+  const RenderFrame& frame = picture.frame;
+  double variance = 0.0;
+  Pass("upload", [&] {
+    for (const CascadePlanes& planes : frame.cascades) {
+      picture.stats.push_back(MeasureSlopes(planes));
+      variance += picture.stats.back().height_variance_m2;
+    }
+    sea.Upload(frame.cascades);
+    surface.SetFoamWindow(frame.foam);
+  });
+  Pass("ripples", [&] {
+    ripples.Draw(empty, frame.seed, frame.time_s,
+                 0.66 * UnresolvedSlopeVariance(frame, picture.stats), frame.weather.wind_to_rad);
+  });
+  picture.displacement_max_m = 3.2 * std::sqrt(variance) + LargestHeightM(frame.patches);
+  for (const RegularWaveNow& wave : frame.regular_waves) {
+    picture.displacement_max_m += wave.amplitude_m;
+  }
+}
+
+OceanGrid Renderer::Impl::FillBlock(Picture& picture) {
+  const RenderFrame& frame = picture.frame;
+  const Vec2d eye{frame.camera.position_m.x, frame.camera.position_m.y};
+  Camera over_water = frame.camera;
+  over_water.position_m.z -= frame.water_level_m;
+  const OceanGrid lattice =
+      FitOceanGrid(over_water, picture.width, picture.height, frame.quality.pixels_per_column,
+                   picture.displacement_max_m);
+  picture.block = MakeFrameBlock(frame, light, lattice, picture.stats, ripples.stats(),
+                                 RipplePass::kLengthM, picture.width, picture.height);
+  if (!frame.patches.empty()) {
+    Pass("patches", [&] { patches.Update(frame.patches, eye, picture.block); });
+  }
+  attenuation.Update(frame.attenuation, eye, picture.block);
+  if (frame.terrain != nullptr) {
+    ground.Update(frame.terrain, eye, frame.water_level_m, picture.block);
+    // From above, water hides what its troughs don't bare.
+    const double lowest_m = picture.block.eye.z < 0.0f ? -1e9 : -picture.displacement_max_m;
+    picture.terrain =
+        terrain.Prepare(ground, picture.block, lowest_m, 1.5 * frame.quality.pixels_per_column);
+  }
+  return lattice;
+}
+
+void Renderer::Impl::ShadeSea(const Picture& picture, const HullMirror& mirror) {
+  SurfaceVariant variant;
+  variant.underside = picture.block.eye.z < picture.displacement_max_m;
+  variant.ripples = picture.frame.quality.ripples;
+  variant.regular_waves = !picture.frame.regular_waves.empty();
+  variant.cascades = static_cast<int>(picture.frame.cascades.size());
+  variant.patches = static_cast<int>(picture.block.counts.w);
+  variant.terrain = picture.frame.terrain != nullptr;
+  variant.attenuated = attenuation.any();
+  surface.Draw(empty, scene, {grid, sea, patches, ground, attenuation, ripples, sky}, mirror,
+               variant);
+}
 
 void Renderer::Draw(const RenderFrame& frame, int width, int height, unsigned framebuffer) {
   ONESEA_CHECK(width > 0 && height > 0);
@@ -142,59 +227,37 @@ void Renderer::Draw(const RenderFrame& frame, int width, int height, unsigned fr
   glDisable(GL_SCISSOR_TEST);
   r.UpdateLight(frame);
 
-  std::vector<SlopeStats> stats;
-  double variance = 0.0;
-  r.Pass("upload", [&] {
-    for (const CascadePlanes& planes : frame.cascades) {
-      stats.push_back(MeasureSlopes(planes));
-      variance += stats.back().height_variance_m2;
-    }
-    r.sea.Upload(frame.cascades);
-    r.surface.SetFoamWindow(frame.foam);
-  });
-  r.Pass("ripples", [&] {
-    r.ripples.Draw(r.empty, frame.seed, frame.time_s, 0.66 * UnresolvedSlopeVariance(frame, stats),
-                   frame.weather.wind_to_rad);
-  });
-
-  double displacement_max_m = 3.2 * std::sqrt(variance);
-  for (const RegularWaveNow& wave : frame.regular_waves) displacement_max_m += wave.amplitude_m;
-  displacement_max_m += LargestHeightM(frame.patches);
-  const OceanGrid grid = FitOceanGrid(frame.camera, width, height, frame.quality.pixels_per_column,
-                                      displacement_max_m);
-  FrameBlock block = MakeFrameBlock(frame, r.light, grid, stats, r.ripples.stats(),
-                                    RipplePass::kLengthM, width, height);
-  if (!frame.patches.empty()) {
-    r.Pass("patches", [&] {
-      r.patches.Update(frame.patches, {frame.camera.position_m.x, frame.camera.position_m.y},
-                       block);
-    });
-  }
-  r.UploadBlock(block);
   const int samples = frame.quality.samples == 0 ? r.samples_default : frame.quality.samples;
+  Impl::Picture picture{frame, width, height, samples};
+  r.UploadSea(picture);
+  const OceanGrid lattice = r.FillBlock(picture);
+  const FrameBlock& block = picture.block;
+  r.UploadBlock(block);
   r.scene.Resize(width, height, GL_RGBA16F);
   r.Pass("small sky", [&] { r.sky.DrawSmall(r.empty, block, width, height); });
   const bool hulls = !frame.hulls.empty() && r.hulls.Prepare(frame, block, width, height);
   HullMirror mirror;
   if (hulls) {
-    r.Pass("mirror", [&] { mirror = r.hulls.DrawMirror(width, height, r.sea, r.patches, r.sky); });
+    r.Pass("mirror", [&] {
+      mirror = r.hulls.DrawMirror(width, height, r.sea, r.patches, r.attenuation, r.sky);
+    });
   }
-  r.Pass("geometry", [&] { r.grid.Draw(grid, r.sea, r.patches, width, height, samples); });
-  r.Pass("classify", [&] { r.classify.Draw(r.empty, r.scene, r.grid); });
+  r.Pass("geometry",
+         [&] { r.grid.Draw(lattice, r.sea, r.patches, r.attenuation, width, height, samples); });
+  if (picture.terrain) r.Pass("land mesh", [&] { r.terrain.DrawGeometry(r.ground); });
+  r.Pass("classify", [&] { r.classify.Draw(r.empty, r.scene, r.grid, picture.terrain); });
   r.Pass("sky", [&] { r.sky.Place(r.empty, block, r.scene); });
-  r.Pass("surface", [&] {
-    SurfaceVariant variant;
-    variant.underside = frame.camera.position_m.z < displacement_max_m;
-    variant.ripples = frame.quality.ripples;
-    variant.regular_waves = !frame.regular_waves.empty();
-    variant.cascades = static_cast<int>(frame.cascades.size());
-    variant.patches = static_cast<int>(block.counts.w);
-    r.surface.Draw(r.empty, r.scene, r.grid, r.sea, r.patches, r.ripples, r.sky, mirror, variant);
-  });
+  r.Pass("surface", [&] { r.ShadeSea(picture, mirror); });
+  if (picture.terrain) {
+    r.Pass("land", [&] { r.terrain.Shade(r.empty, r.scene, r.grid, r.ground, r.sky); });
+  }
   if (samples == 1) {
     r.Pass("steps", [&] { r.smooth_steps.Draw(r.empty, r.scene, r.grid, r.classify); });
   }
   if (hulls) r.Pass("hulls", [&] { r.hulls.Draw(r.empty, r.scene, r.grid, r.sky); });
+  if (!frame.spray.empty()) {
+    r.Pass("spray", [&] { r.spray.Draw(frame, r.scene, r.grid, r.sky); });
+  }
   r.Pass("tone map", [&] { r.tone.Draw(r.empty, r.scene, framebuffer, frame.quality.bloom); });
 }
 

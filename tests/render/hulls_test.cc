@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 
+#include "client/render/hull_levels.h"
 #include "client/render/hull_models.h"
 #include "client/render/hull_painter.h"
 #include "tests/render/gl_fixture.h"
@@ -179,6 +180,56 @@ double VolumeOf(const HullMesh& mesh) {
   return sum;
 }
 
+// Half as many cells a side, a quarter of the triangles or so; never outside of the hull's own box,
+// and closed still.
+TEST(HullLevelsTest, CoarserHullsAreTheSameHullInFewerTriangles) {
+  for (const SharedHullMesh& mesh : {BoatModel(), BuoyModel(), BarrelModel(), BallModel()}) {
+    Vec3d low{1e9, 1e9, 1e9}, high{-1e9, -1e9, -1e9};
+    const auto widen = [](const HullMesh& m, Vec3d& l, Vec3d& h) {
+      for (const HullCorner& c : m.corners) {
+        const auto& p = c.position_m;
+        l = {std::min<double>(l.x, p[0]), std::min<double>(l.y, p[1]), std::min<double>(l.z, p[2])};
+        h = {std::max<double>(h.x, p[0]), std::max<double>(h.y, p[1]), std::max<double>(h.z, p[2])};
+      }
+    };
+    widen(*mesh, low, high);
+    const double diagonal = Norm(high - low);
+    std::size_t corners = mesh->corners.size();
+    for (double cells : {16.0, 8.0}) {
+      const HullMesh coarse = CoarserHull(*mesh, static_cast<float>(diagonal / cells));
+      EXPECT_LT(coarse.corners.size(), corners * 2 / 3);
+      EXPECT_GE(coarse.corners.size(), 3u * 8u);
+      corners = coarse.corners.size();
+      Vec3d l{1e9, 1e9, 1e9}, h{-1e9, -1e9, -1e9};
+      widen(coarse, l, h);
+      for (double inside :
+           {l.x - low.x, l.y - low.y, l.z - low.z, high.x - h.x, high.y - h.y, high.z - h.z}) {
+        EXPECT_GE(inside, -1e-5);
+        EXPECT_LE(inside, 1.01 * diagonal / cells);
+      }
+      EXPECT_NEAR(VolumeOf(coarse), VolumeOf(*mesh), 0.45 * VolumeOf(*mesh));
+    }
+  }
+  // Of what is smaller than a cell nothing but what crosses the cells' borders is left.
+  EXPECT_LE(CoarserHull(*BallModel(0.1), 10.0f).corners.size(), 3u * 24u);
+}
+
+// Far boats cover about the pixels that they would in full.
+TEST_F(HullsTest, FarHullsKeepTheirPlaceInThePicture) {
+  frame_.hulls = {
+      {BoatModel(6, 2.2, 1.1), {150, 0, 0.2}, {0.7071, 0, 0, 0.7071}, {0.9f, 0.9f, 0.9f}}};
+  frame_.camera.vertical_fov_rad = 0.2;
+  const std::vector<bool> near = Changed();  // 100 pixels long
+  frame_.camera.vertical_fov_rad = kFov;
+  const std::vector<bool> far = Changed();
+  const auto count = [](const std::vector<bool>& m) {
+    return static_cast<double>(std::count(m.begin(), m.end(), true));
+  };
+  const double ratio = std::pow(std::tan(0.5 * kFov) / std::tan(0.1), 2);
+  EXPECT_GT(count(far), 20.0);
+  EXPECT_NEAR(count(far) * ratio, count(near), 0.6 * count(near));
+}
+
 TEST(HullModelsTest, FacesLookOutwards) {
   const struct {
     const char* name;
@@ -187,12 +238,13 @@ TEST(HullModelsTest, FacesLookOutwards) {
   } kModels[] = {
       {"ball", BallModel(1.0), 4.18879, 0.06},
       {"barrel", BarrelModel(0.5, 2.0), 3.14159 * 0.25 * 2.0, 0.15},
+      {"capsule", CapsuleModel(0.5, 2.0), 3.14159 * (0.25 * 2.0 + 4.0 / 3.0 * 0.125), 0.06},
   };
   for (const auto& model : kModels) {
     EXPECT_NEAR(VolumeOf(*model.mesh), model.volume_m3, model.tolerance) << model.name;
   }
-  for (const SharedHullMesh& mesh :
-       {BoatModel(), BuoyModel(), CrateModel(), BarrelModel(), BallModel(), RaftModel()}) {
+  for (const SharedHullMesh& mesh : {BoatModel(), BuoyModel(), CrateModel(), BarrelModel(),
+                                     BallModel(), CapsuleModel(), RaftModel()}) {
     EXPECT_GT(VolumeOf(*mesh), 0.0);
     for (const HullCorner& corner : mesh->corners) {
       const auto& n = corner.normal;
@@ -204,8 +256,8 @@ TEST(HullModelsTest, FacesLookOutwards) {
 // The faces of a closed body, each as a vector along its outward normal, add up to nothing: one
 // that looks inwards would not be drawn.
 TEST(HullModelsTest, FacesAddUpToNothing) {
-  for (const SharedHullMesh& mesh :
-       {BoatModel(), BuoyModel(), CrateModel(), BarrelModel(), BallModel(), RaftModel()}) {
+  for (const SharedHullMesh& mesh : {BoatModel(), BuoyModel(), CrateModel(), BarrelModel(),
+                                     BallModel(), CapsuleModel(), RaftModel()}) {
     Vec3d sum;
     double area = 0.0;
     for (std::size_t n = 0; n + 2 < mesh->corners.size(); n += 3) {

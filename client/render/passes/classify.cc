@@ -1,11 +1,15 @@
 #include "client/render/passes/classify.h"
 
+#include <vector>
+
 #include "common/base/check.h"
 
 namespace onesea::render {
 namespace {
 
 constexpr float kLow = 0.25f, kStep = 0.5f, kHigh = 0.75f;
+constexpr float kLandOfOne = 0.875f, kLandOfFour = 0.625f;
+enum Programs : std::size_t { kOne, kFour, kOneOverTerrain };
 
 void Choose(const ShaderProgram& program, float depth, GLenum test) {
   glEnable(GL_DEPTH_TEST);
@@ -17,14 +21,13 @@ void Choose(const ShaderProgram& program, float depth, GLenum test) {
 }  // namespace
 
 absl::StatusOr<ClassifyPass> ClassifyPass::Create() {
-  std::array<ShaderProgram, 2> programs;
+  std::array<ShaderProgram, 3> programs;
   for (std::size_t n = 0; n < programs.size(); ++n) {
-    auto program = n == 0
-                       ? ShaderProgram::Build({"fullscreen.vert.glsl"},
-                                              {"frame.glsl", "steps.glsl", "classify.frag.glsl"},
-                                              {"SAMPLES 1"})
-                       : ShaderProgram::Build({"fullscreen.vert.glsl"},
-                                              {"frame.glsl", "classify.frag.glsl"}, {"SAMPLES 4"});
+    std::vector<std::string_view> files = {"frame.glsl", "steps.glsl", "classify.frag.glsl"};
+    if (n == kFour) files.erase(files.begin() + 1);
+    auto program = ShaderProgram::Build(
+        {"fullscreen.vert.glsl"}, files,
+        {n == kFour ? "SAMPLES 4" : "SAMPLES 1", n == kOneOverTerrain ? "TERRAIN 1" : "TERRAIN 0"});
     if (!program.ok()) return program.status();
     programs[n] = std::move(*program);
   }
@@ -32,7 +35,7 @@ absl::StatusOr<ClassifyPass> ClassifyPass::Create() {
 }
 
 void ClassifyPass::Draw(const VertexArray& empty, const ColorTarget& scene,
-                        const SurfaceGridPass& geometry) {
+                        const SurfaceGridPass& geometry, bool terrain) {
   scene.Bind();
   if (scene.width != width_ || scene.height != height_) {
     width_ = scene.width;
@@ -42,14 +45,14 @@ void ClassifyPass::Draw(const VertexArray& empty, const ColorTarget& scene,
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_.id());
     ONESEA_CHECK(glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE);
   }
-  const ShaderProgram& program = programs_[geometry.target() == GL_TEXTURE_2D ? 0 : 1];
+  const bool one = geometry.target() == GL_TEXTURE_2D;
+  const ShaderProgram& program = programs_[one ? (terrain ? kOneOverTerrain : kOne) : kFour];
   program.Use();
-  if (geometry.target() == GL_TEXTURE_2D) {
-    BindTexture(0, GL_TEXTURE_2D, geometry.depth());
-    program.SetSampler("depth_map", 0);
-  } else {
-    BindTexture(0, geometry.target(), geometry.surface());
-    program.SetSampler("surface_map", 0);
+  BindTexture(0, geometry.target(), geometry.surface());
+  program.SetSampler("surface_map", 0);
+  if (one) {
+    BindTexture(1, GL_TEXTURE_2D, geometry.depth());
+    program.SetSampler("depth_map", 1);
   }
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_ALWAYS);
@@ -72,6 +75,9 @@ void ClassifyPass::ChooseSheetsAndSteps(const ShaderProgram& program) {
 void ClassifyPass::ChooseSteps(const ShaderProgram& program) { Choose(program, kStep, GL_EQUAL); }
 void ClassifyPass::ChooseEdges(const ShaderProgram& program) { Choose(program, kHigh, GL_LESS); }
 void ClassifyPass::ChooseNotSheets(const ShaderProgram& program) { Choose(program, kLow, GL_LESS); }
+void ClassifyPass::ChooseLand(const ShaderProgram& program, int samples) {
+  Choose(program, samples == 1 ? kLandOfOne : kLandOfFour, GL_EQUAL);
+}
 void ClassifyPass::ChooseAll() {
   glDisable(GL_DEPTH_TEST);
   glDepthMask(GL_TRUE);

@@ -24,7 +24,8 @@ class ClassifyPass {
   static absl::StatusOr<ClassifyPass> Create();
 
   /// Writes the classes of `geometry` into the depth of `scene`.
-  void Draw(const VertexArray& empty, const ColorTarget& scene, const SurfaceGridPass& geometry);
+  void Draw(const VertexArray& empty, const ColorTarget& scene, const SurfaceGridPass& geometry,
+            bool terrain);
 
   /// Lets the choices below hold for what is drawn into `other`, of the same size, too.
   void ShareClasses(const ColorTarget& other) const;
@@ -35,12 +36,13 @@ class ClassifyPass {
   static void ChooseSheetsAndSteps(const ShaderProgram& program);
   static void ChooseSteps(const ShaderProgram& program);
   static void ChooseEdges(const ShaderProgram& program);
-  static void ChooseNotSheets(const ShaderProgram& program);  ///< sky, steps, edges
+  static void ChooseNotSheets(const ShaderProgram& program);  ///< sky, steps, edges, land
+  static void ChooseLand(const ShaderProgram& program, int samples);
   static void ChooseAll();
 
  private:
-  explicit ClassifyPass(std::array<ShaderProgram, 2> programs) : programs_(std::move(programs)) {}
-  std::array<ShaderProgram, 2> programs_;  // one sample a pixel, four
+  explicit ClassifyPass(std::array<ShaderProgram, 3> programs) : programs_(std::move(programs)) {}
+  std::array<ShaderProgram, 3> programs_;  // one sample a pixel, four, one with terrain
   Renderbuffer depth_;
   int width_ = 0, height_ = 0;
 };

@@ -8,6 +8,7 @@
 #include <glm/gtc/type_ptr.hpp>
 #include <span>
 
+#include "client/render/hull_levels.h"
 #include "common/base/check.h"
 
 namespace onesea::render {
@@ -15,14 +16,21 @@ namespace {
 
 constexpr int kSamples = 4;
 constexpr int kHullsMax = 1024;  // in view
+// Coarser meshes have so many cells along the diagonal of their box.
+constexpr float kLevelCells[] = {64.0f, 32.0f, 16.0f, 8.0f};
+// And are drawn when a cell covers at most so many pixels; in the mirror, which has half as many and
+// is blurred by the waves, more.
+constexpr float kCellPixels = 2.2f, kImageCellPixels = 6.0f;
 
-glm::mat4 Placement(const HullInstance& hull, const Vec3d& eye) {
+// `zero` is the eye's place on the water level.
+glm::mat4 Placement(const HullInstance& hull, const Vec3d& zero) {
   const auto [w, x, y, z] = hull.rotation_wxyz;
   glm::dmat4 matrix(1.0);
   matrix[0] = {1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y), 0};
   matrix[1] = {2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x), 0};
   matrix[2] = {2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y), 0};
-  matrix[3] = {hull.position_m.x - eye.x, hull.position_m.y - eye.y, hull.position_m.z, 1};
+  matrix[3] = {hull.position_m.x - zero.x, hull.position_m.y - zero.y, hull.position_m.z - zero.z,
+               1};
   return glm::mat4(matrix);
 }
 
@@ -97,13 +105,13 @@ absl::StatusOr<HullPass> HullPass::Create() {
       {"SAMPLES 1", "MIRROR 0"}, {"SAMPLES 4", "MIRROR 0"}, {"SAMPLES 1", "MIRROR 1"}};
   std::array<ShaderProgram, 5> programs;
   for (std::size_t n = 0; n < programs.size(); ++n) {
-    auto program = n < 3 ? ShaderProgram::Build({"frame.glsl", "hulls.vert.glsl"},
-                                                {"frame.glsl", "sky.glsl", "hulls.frag.glsl"},
-                                                {kKinds[n][0], kKinds[n][1], "kNearest 0.2"})
-                   : n == 3
-                       ? ShaderProgram::Build({"frame.glsl", "hulls_water.vert.glsl"},
-                                              {"hulls_water.frag.glsl"}, {"kHulls 1024"})
-                       : ShaderProgram::Build({"fullscreen.vert.glsl"}, {"hulls_place.frag.glsl"});
+    auto program =
+        n < 3    ? ShaderProgram::Build({"frame.glsl", "hulls.vert.glsl"},
+                                        {"frame.glsl", "sky.glsl", "hulls.frag.glsl"},
+                                        {kKinds[n][0], kKinds[n][1], "kNearest 0.2"})
+        : n == 3 ? ShaderProgram::Build({"frame.glsl", "attenuation.glsl", "hulls_water.vert.glsl"},
+                                        {"hulls_water.frag.glsl"}, {"kHulls 1024"})
+                 : ShaderProgram::Build({"fullscreen.vert.glsl"}, {"hulls_place.frag.glsl"});
     if (!program.ok()) return program.status();
     programs[n] = std::move(*program);
   }
@@ -128,11 +136,25 @@ HullPass::HullPass(std::array<ShaderProgram, 5> programs)
   glVertexAttribPointer(0, 4, GL_FLOAT, GL_FALSE, 0, nullptr);
 }
 
+HullPass::Level HullPass::Upload(const HullMesh& mesh, float cell_m) {
+  Level level;
+  level.cell_m = cell_m;
+  level.count = static_cast<GLsizei>(mesh.corners.size());
+  glBindVertexArray(level.vertices.id());
+  glBindBuffer(GL_ARRAY_BUFFER, level.corners.id());
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(mesh.corners.size() * sizeof(HullCorner)),
+               mesh.corners.data(), GL_STATIC_DRAW);
+  SetAttribute(0, 3, offsetof(HullCorner, position_m));
+  SetAttribute(1, 3, offsetof(HullCorner, normal));
+  SetAttribute(2, 3, offsetof(HullCorner, albedo));
+  SetAttribute(3, 2, offsetof(HullCorner, gloss));
+  return level;
+}
+
 const HullPass::Mesh& HullPass::MeshFor(const std::shared_ptr<const HullMesh>& source) {
   Mesh& mesh = meshes_[source.get()];
   if (mesh.source == source) return mesh;
   mesh.source = source;
-  mesh.count = static_cast<GLsizei>(source->corners.size());
   mesh.low = glm::vec3(1e9f);
   mesh.high = -mesh.low;
   for (const HullCorner& corner : source->corners) {
@@ -140,15 +162,18 @@ const HullPass::Mesh& HullPass::MeshFor(const std::shared_ptr<const HullMesh>& s
     mesh.low = glm::min(mesh.low, at);
     mesh.high = glm::max(mesh.high, at);
   }
-  glBindVertexArray(mesh.vertices.id());
-  glBindBuffer(GL_ARRAY_BUFFER, mesh.corners.id());
-  glBufferData(GL_ARRAY_BUFFER,
-               static_cast<GLsizeiptr>(source->corners.size() * sizeof(HullCorner)),
-               source->corners.data(), GL_STATIC_DRAW);
-  SetAttribute(0, 3, offsetof(HullCorner, position_m));
-  SetAttribute(1, 3, offsetof(HullCorner, normal));
-  SetAttribute(2, 3, offsetof(HullCorner, albedo));
-  SetAttribute(3, 2, offsetof(HullCorner, gloss));
+  mesh.levels.clear();
+  mesh.levels.push_back(Upload(*source, 0.0f));
+  HullMesh coarse;
+  for (const float cells : kLevelCells) {
+    const HullMesh& finer = mesh.levels.size() > 1 ? coarse : *source;
+    const float cell_m = glm::distance(mesh.low, mesh.high) / cells;
+    HullMesh next = CoarserHull(finer, cell_m);
+    // One of few triangles stays as it is.
+    if (next.corners.empty() || next.corners.size() > finer.corners.size() * 3 / 4) continue;
+    coarse = std::move(next);
+    mesh.levels.push_back(Upload(coarse, cell_m));
+  }
   return mesh;
 }
 
@@ -162,11 +187,12 @@ bool HullPass::Prepare(const RenderFrame& frame, const FrameBlock& block, int wi
   boxes_.clear();
   if (meshes_.size() > frame.hulls.size()) Forget();
   mirror_box_ = {width, height, 0, 0};
+  const Vec3d zero{frame.camera.position_m.x, frame.camera.position_m.y, frame.water_level_m};
   for (const HullInstance& hull : frame.hulls) {
     if (hull.mesh == nullptr || hull.mesh->corners.empty()) continue;
     if (visible_.size() == kHullsMax) break;
     const Mesh& mesh = MeshFor(hull.mesh);
-    const glm::mat4 placement = Placement(hull, frame.camera.position_m);
+    const glm::mat4 placement = Placement(hull, zero);
     std::array<glm::vec3, 8> corners;
     std::array<glm::vec3, 16> image;
     for (std::size_t n = 0; n < corners.size(); ++n) {
@@ -187,7 +213,9 @@ bool HullPass::Prepare(const RenderFrame& frame, const FrameBlock& block, int wi
     if (box.empty() && mirror.empty()) continue;
     if (!box.empty()) AddDisjoint(box, boxes_);
     if (!mirror.empty()) mirror_box_ = Union(mirror_box_, mirror);
-    visible_.push_back({&mesh, placement, hull.colour, !box.empty(), !mirror.empty()});
+    const float distance_m = glm::distance(glm::vec3(placement[3]), glm::vec3(block.eye));
+    visible_.push_back({&mesh, placement, hull.colour, !box.empty(), !mirror.empty(),
+                        distance_m * block.ray_forward.w});
   }
   // Near ones first: what they hide fails the depth test before it is shaded.
   std::sort(visible_.begin(), visible_.end(), [&](const Visible& a, const Visible& b) {
@@ -212,7 +240,8 @@ void HullPass::Resize(int width, int height) {
   ONESEA_CHECK(glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE);
 }
 
-void HullPass::FindWater(const SeaTextures& sea, const PatchTextures& patches) {
+void HullPass::FindWater(const SeaTextures& sea, const PatchTextures& patches,
+                         const AttenuationTexture& attenuation) {
   std::vector<glm::vec4> points;
   for (const Visible& hull : visible_) {
     const glm::vec4& place = hull.world_from_body[3];
@@ -227,6 +256,8 @@ void HullPass::FindWater(const SeaTextures& sea, const PatchTextures& patches) {
   water_.SetSampler("displacement_map", 0);
   BindTexture(1, GL_TEXTURE_2D_ARRAY, patches.height());
   water_.SetSampler("patch_height_map", 1);
+  BindTexture(2, GL_TEXTURE_2D_ARRAY, attenuation.factors());
+  water_.SetSampler("attenuation_map", 2);
   glBindVertexArray(water_vertices_.id());
   glBindBuffer(GL_ARRAY_BUFFER, water_points_.id());
   glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(points.size() * sizeof(glm::vec4)),
@@ -256,16 +287,21 @@ void HullPass::DrawMeshes(const ShaderProgram& program, bool image, const SkyPas
     glUniform1i(index, static_cast<GLint>(n));
     glUniformMatrix4fv(matrix, 1, GL_FALSE, glm::value_ptr(hull.world_from_body));
     glUniform3fv(colour, 1, hull.colour.data());
-    glBindVertexArray(hull.mesh->vertices.id());
-    glDrawArrays(GL_TRIANGLES, 0, hull.mesh->count);
+    const float cell_max_m = hull.pixel_m * (image ? kImageCellPixels : kCellPixels);
+    const auto coarser = std::find_if(hull.mesh->levels.begin() + 1, hull.mesh->levels.end(),
+                                      [&](const Level& l) { return l.cell_m > cell_max_m; });
+    const Level& level = *(coarser - 1);
+    glBindVertexArray(level.vertices.id());
+    glDrawArrays(GL_TRIANGLES, 0, level.count);
   }
   glDisable(GL_CULL_FACE);
   glDisable(GL_DEPTH_TEST);
 }
 
 HullMirror HullPass::DrawMirror(int width, int height, const SeaTextures& sea,
-                                const PatchTextures& patches, const SkyPass& sky) {
-  FindWater(sea, patches);
+                                const PatchTextures& patches, const AttenuationTexture& attenuation,
+                                const SkyPass& sky) {
+  FindWater(sea, patches, attenuation);
   const int columns = (width + 1) / 2, rows = (height + 1) / 2;
   if (columns != mirror_picture_.width || rows != mirror_picture_.height) {
     mirror_picture_.Resize(columns, rows, GL_RGBA16F);

@@ -30,18 +30,23 @@ class HullPass {
   /// After Prepare() of the same picture, the block uploaded: the mirror image in half as many
   /// columns and rows, for the sea's shading. Valid until the next call.
   HullMirror DrawMirror(int width, int height, const SeaTextures& sea, const PatchTextures& patches,
-                        const SkyPass& sky);
+                        const AttenuationTexture& attenuation, const SkyPass& sky);
 
   /// After DrawMirror(): the hulls over the scene.
   void Draw(const VertexArray& empty, const ColorTarget& scene, const SurfaceGridPass& geometry,
             const SkyPass& sky);
 
  private:
-  struct Mesh {
-    std::shared_ptr<const HullMesh> source;
+  // A mesh in one fineness.
+  struct Level {
     VertexArray vertices;
     Buffer corners;
     GLsizei count = 0;
+    float cell_m = 0.0f;  // corners closer than this are one
+  };
+  struct Mesh {
+    std::shared_ptr<const HullMesh> source;
+    std::vector<Level> levels;        // finest first
     glm::vec3 low{0.0f}, high{0.0f};  // bounds in the body frame [m]
   };
   struct Visible {
@@ -49,12 +54,15 @@ class HullPass {
     glm::mat4 world_from_body;
     std::array<float, 3> colour;
     bool in_view, has_image;
+    float pixel_m;  // of one pixel's breadth, there
   };
   explicit HullPass(std::array<ShaderProgram, 5> programs);
+  static Level Upload(const HullMesh& mesh, float cell_m);
   const Mesh& MeshFor(const std::shared_ptr<const HullMesh>& source);
   void Forget();
   void Resize(int width, int height);
-  void FindWater(const SeaTextures& sea, const PatchTextures& patches);
+  void FindWater(const SeaTextures& sea, const PatchTextures& patches,
+                 const AttenuationTexture& attenuation);
   void DrawMeshes(const ShaderProgram& program, bool image, const SkyPass& sky, int unit);
 
   // Sea of one sample a pixel, of four; mirror image; water under hulls; picture over the scene.

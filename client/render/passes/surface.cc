@@ -14,13 +14,17 @@ namespace {
 
 absl::StatusOr<ShaderProgram> Build(const SurfaceVariant& variant) {
   const auto define = [](const char* name, int value) { return absl::StrCat(name, " ", value); };
-  const std::array<std::string, 8> definitions = {
+  const std::array<std::string, 10> definitions = {
       define("EDGES", variant.edges),     define("UNDERSIDE", variant.underside),
       define("RIPPLES", variant.ripples), define("REGULARS", variant.regular_waves),
       define("SAMPLES", variant.samples), define("CASCADES", variant.cascades),
-      define("PATCHES", variant.patches), define("HULLS", variant.hulls)};
-  return ShaderProgram::Build({"fullscreen.vert.glsl"},
-                              {"frame.glsl", "sky.glsl", "optics.glsl", "surface.frag.glsl"},
+      define("PATCHES", variant.patches), define("HULLS", variant.hulls),
+      define("TERRAIN", variant.terrain), define("ATTENUATED", variant.attenuated)};
+  std::vector<std::string_view> files = {"frame.glsl", "sky.glsl", "optics.glsl"};
+  if (variant.attenuated) files.push_back("attenuation.glsl");
+  if (variant.terrain) files.push_back("ground.glsl");
+  files.push_back("surface.frag.glsl");
+  return ShaderProgram::Build({"fullscreen.vert.glsl"}, files,
                               {definitions.begin(), definitions.end()});
 }
 
@@ -77,13 +81,13 @@ void SurfacePass::SetFoamWindow(const FoamCells& foam) {
   glGenerateMipmap(GL_TEXTURE_2D);
 }
 
-void SurfacePass::DrawVariant(std::span<const Input> inputs, const SurfaceVariant& variant) {
+void SurfacePass::DrawVariant(std::span<const Map> maps, const SurfaceVariant& variant) {
   const ShaderProgram& program = ProgramFor(variant);
   program.Use();
   int unit = 0;
-  for (const Input& input : inputs) {
-    BindTexture(unit, input.target, input.texture);
-    program.SetSampler(input.name, unit++);
+  for (const Map& map : maps) {
+    BindTexture(unit, map.target, map.texture);
+    program.SetSampler(map.name, unit++);
   }
   if (variant.edges) {
     glEnable(GL_BLEND);
@@ -97,21 +101,23 @@ void SurfacePass::DrawVariant(std::span<const Input> inputs, const SurfaceVarian
 }
 
 void SurfacePass::Draw(const VertexArray& empty, const ColorTarget& scene,
-                       const SurfaceGridPass& geometry, const SeaTextures& sea,
-                       const PatchTextures& patches, const RipplePass& ripples, const SkyPass& sky,
-                       const HullMirror& mirror, SurfaceVariant variant) {
+                       const SurfaceInput& input, const HullMirror& mirror,
+                       SurfaceVariant variant) {
   const bool hulls = mirror.picture != nullptr && !mirror.box.empty();
-  const Input kInputs[] = {
-      {"surface_map", geometry.target(), geometry.surface()},
-      {"slope_map", GL_TEXTURE_2D_ARRAY, sea.slope()},
-      {"ripple_slope_map", GL_TEXTURE_2D, ripples.slope()},
-      {"patch_slope_map", GL_TEXTURE_2D_ARRAY, patches.slope()},
+  const Map kMaps[] = {
+      {"surface_map", input.geometry.target(), input.geometry.surface()},
+      {"slope_map", GL_TEXTURE_2D_ARRAY, input.sea.slope()},
+      {"ripple_slope_map", GL_TEXTURE_2D, input.ripples.slope()},
+      {"patch_slope_map", GL_TEXTURE_2D_ARRAY, input.patches.slope()},
       {"foam_map", GL_TEXTURE_2D, foam_},
       {"foam_window_map", GL_TEXTURE_2D, foam_window_},
-      {"sky_map", GL_TEXTURE_3D, sky.map()},
-      {"haze_map", GL_TEXTURE_2D, sky.haze()},
+      {"sky_map", GL_TEXTURE_3D, input.sky.map()},
+      {"haze_map", GL_TEXTURE_2D, input.sky.haze()},
       {"mirror_map", GL_TEXTURE_2D, hulls ? *mirror.picture : foam_},
       {"mirror_distance_map", GL_TEXTURE_2D, hulls ? *mirror.distance : foam_},
+      {"ground_map", GL_TEXTURE_2D, input.ground.ground()},
+      {"grain_map", GL_TEXTURE_2D, input.ground.grain()},
+      {"attenuation_map", GL_TEXTURE_2D_ARRAY, input.attenuation.factors()},
   };
   // Only water that may mirror a hull pays for it: that box, then what is below, above and beside.
   const PixelBox& box = mirror.box;
@@ -121,14 +127,14 @@ void SurfacePass::Draw(const VertexArray& empty, const ColorTarget& scene,
                              {0, box.bottom, box.left, box.top},
                              {box.right, box.bottom, scene.width, box.top}};
   scene.Bind();
-  variant.samples = geometry.target() == GL_TEXTURE_2D ? 1 : 4;
+  variant.samples = input.geometry.target() == GL_TEXTURE_2D ? 1 : 4;
   glBindVertexArray(empty.id());
   glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);  // the covered share over the sky, premultiplied
   for (bool edges : {false, true}) {
     if (edges && variant.samples == 1) break;
     variant.edges = edges;
     if (!hulls) {
-      DrawVariant(kInputs, variant);
+      DrawVariant(kMaps, variant);
       continue;
     }
     glEnable(GL_SCISSOR_TEST);
@@ -136,7 +142,7 @@ void SurfacePass::Draw(const VertexArray& empty, const ColorTarget& scene,
       if (part.empty()) continue;
       variant.hulls = &part == kBoxes;
       part.Scissor();
-      DrawVariant(kInputs, variant);
+      DrawVariant(kMaps, variant);
     }
     glDisable(GL_SCISSOR_TEST);
   }

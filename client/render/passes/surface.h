@@ -5,7 +5,9 @@
 #include <span>
 
 #include "absl/status/statusor.h"
+#include "client/render/attenuation_texture.h"
 #include "client/render/gl_objects.h"
+#include "client/render/ground_textures.h"
 #include "client/render/passes/ripples.h"
 #include "client/render/passes/sky.h"
 #include "client/render/passes/surface_grid.h"
@@ -24,7 +26,9 @@ struct SurfaceVariant {
   bool regular_waves = false;
   int samples = 4;
   int cascades = 4;
-  int patches = 0;  ///< of the interaction layer, in view
+  int patches = 0;          ///< of the interaction layer, in view
+  bool terrain = false;     ///< the bottom may shine through
+  bool attenuated = false;  ///< cascades are lower over terrain
   friend auto operator<=>(const SurfaceVariant&, const SurfaceVariant&) = default;
 };
 
@@ -35,6 +39,17 @@ struct HullMirror {
   PixelBox box;
 };
 
+/// What the sea's shading reads.
+struct SurfaceInput {
+  const SurfaceGridPass& geometry;
+  const SeaTextures& sea;
+  const PatchTextures& patches;
+  const GroundTextures& ground;
+  const AttenuationTexture& attenuation;
+  const RipplePass& ripples;
+  const SkyPass& sky;
+};
+
 /// Shades the sea, once per covered pixel, over the sky.
 class SurfacePass {
  public:
@@ -43,18 +58,17 @@ class SurfacePass {
   void SetFoamWindow(const FoamCells& foam);
   /// Where ClassifyPass found water; `variant.edges` and `.samples` are filled in. A new
   /// variant is compiled on first use.
-  void Draw(const VertexArray& empty, const ColorTarget& scene, const SurfaceGridPass& geometry,
-            const SeaTextures& sea, const PatchTextures& patches, const RipplePass& ripples,
-            const SkyPass& sky, const HullMirror& mirror, SurfaceVariant variant);
+  void Draw(const VertexArray& empty, const ColorTarget& scene, const SurfaceInput& input,
+            const HullMirror& mirror, SurfaceVariant variant);
 
  private:
   SurfacePass();
-  struct Input {
+  struct Map {
     const char* name;
     GLenum target;
     const Texture& texture;
   };
-  void DrawVariant(std::span<const Input> inputs, const SurfaceVariant& variant);
+  void DrawVariant(std::span<const Map> maps, const SurfaceVariant& variant);
   const ShaderProgram& ProgramFor(const SurfaceVariant& variant);
 
   std::map<SurfaceVariant, ShaderProgram> programs_;

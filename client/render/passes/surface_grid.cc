@@ -8,10 +8,14 @@
 namespace onesea::render {
 
 absl::StatusOr<SurfaceGridPass> SurfaceGridPass::Create() {
-  auto program = ShaderProgram::Build({"frame.glsl", "surface_grid.vert.glsl"},
-                                      {"frame.glsl", "surface_grid.frag.glsl"});
-  if (!program.ok()) return program.status();
-  return SurfaceGridPass(std::move(*program));
+  auto open = ShaderProgram::Build({"frame.glsl", "surface_grid.vert.glsl"},
+                                   {"frame.glsl", "surface_grid.frag.glsl"}, {"ATTENUATED 0"});
+  if (!open.ok()) return open.status();
+  auto attenuated =
+      ShaderProgram::Build({"frame.glsl", "attenuation.glsl", "surface_grid.vert.glsl"},
+                           {"frame.glsl", "surface_grid.frag.glsl"}, {"ATTENUATED 1"});
+  if (!attenuated.ok()) return attenuated.status();
+  return SurfaceGridPass(std::move(*open), std::move(*attenuated));
 }
 
 void SurfaceGridPass::Allocate(const Texture& texture, GLenum internal_format, GLenum format) {
@@ -66,7 +70,8 @@ void SurfaceGridPass::UpdateIndices(const OceanGrid& grid) {
 }
 
 void SurfaceGridPass::Draw(const OceanGrid& grid, const SeaTextures& sea,
-                           const PatchTextures& patches, int width, int height, int samples) {
+                           const PatchTextures& patches, const AttenuationTexture& attenuation,
+                           int width, int height, int samples) {
   Resize(width, height, samples);
   UpdateIndices(grid);
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
@@ -77,11 +82,14 @@ void SurfaceGridPass::Draw(const OceanGrid& grid, const SeaTextures& sea,
   glDepthFunc(GL_LESS);
   glDepthMask(GL_TRUE);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-  program_.Use();
+  const ShaderProgram& program = attenuation.any() ? attenuated_ : open_;
+  program.Use();
   BindTexture(0, GL_TEXTURE_2D_ARRAY, sea.displacement());
-  program_.SetSampler("displacement_map", 0);
+  program.SetSampler("displacement_map", 0);
   BindTexture(1, GL_TEXTURE_2D_ARRAY, patches.height());
-  program_.SetSampler("patch_height_map", 1);
+  program.SetSampler("patch_height_map", 1);
+  BindTexture(2, GL_TEXTURE_2D_ARRAY, attenuation.factors());
+  program.SetSampler("attenuation_map", 2);
   glBindVertexArray(vertices_.id());
   glDrawElements(GL_TRIANGLES, index_count_, GL_UNSIGNED_INT, nullptr);
   glDisable(GL_DEPTH_TEST);

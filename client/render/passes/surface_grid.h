@@ -1,6 +1,7 @@
 #pragma once
 
 #include "absl/status/statusor.h"
+#include "client/render/attenuation_texture.h"
 #include "client/render/gl_objects.h"
 #include "client/render/ocean_grid.h"
 #include "client/render/patch_textures.h"
@@ -16,8 +17,9 @@ class SurfaceGridPass {
  public:
   static absl::StatusOr<SurfaceGridPass> Create();
 
-  void Draw(const OceanGrid& grid, const SeaTextures& sea, const PatchTextures& patches, int width,
-            int height, int samples);
+  /// Leaves its framebuffer bound: what else has a surface may be drawn into it.
+  void Draw(const OceanGrid& grid, const SeaTextures& sea, const PatchTextures& patches,
+            const AttenuationTexture& attenuation, int width, int height, int samples);
 
   const Texture& surface() const { return surface_; }
   /// Of a picture of one sample per pixel.
@@ -25,12 +27,13 @@ class SurfaceGridPass {
   GLenum target() const { return samples_ > 1 ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D; }
 
  private:
-  explicit SurfaceGridPass(ShaderProgram program) : program_(std::move(program)) {}
+  SurfaceGridPass(ShaderProgram open, ShaderProgram attenuated)
+      : open_(std::move(open)), attenuated_(std::move(attenuated)) {}
   void Allocate(const Texture& texture, GLenum internal_format, GLenum format);
   void Resize(int width, int height, int samples);
   void UpdateIndices(const OceanGrid& grid);
 
-  ShaderProgram program_;
+  ShaderProgram open_, attenuated_;
   Texture surface_, depth_;
   Framebuffer framebuffer_;
   VertexArray vertices_;

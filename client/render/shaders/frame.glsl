@@ -29,6 +29,12 @@ layout(std140) uniform Frame {
   vec4 regular[32];
   vec4 patch_map[6];
   vec4 patch_cell[6];
+  vec4 ground_place;
+  vec4 ground_area;
+  vec4 ground_noise;
+  vec4 attenuation_place;
+  vec4 water_kd;
+  vec4 bottom_irradiance;
 };
 
 const float kPi = 3.14159265;

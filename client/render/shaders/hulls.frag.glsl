@@ -29,7 +29,7 @@ float before_sea(float distance) {
   float share = 0.0;
   for (int n = 0; n < SAMPLES; ++n) {
     vec4 s = texelFetch(surface_map, pixel, n);
-    float sea = s.w > 0.5 ? abs(s.z) : 1e6;
+    float sea = s.w != 0.0 ? abs(s.z) : 1e6;  // or land
     share += clamp(0.5 + (sea - distance) / soft, 0.0, 1.0);
   }
   return share / float(SAMPLES);

@@ -13,13 +13,14 @@ float water_height(vec2 xy, float lod_m) {
     vec3 sum = vec3(0.0);
     for (int c = 0; c < cascades; ++c) {
       float lod = max(lod_m - cascade_map[c].w, 0.0);
-      sum += textureLod(displacement_map, vec3(tile_coordinate(c, xy - moved), float(c)), lod).xyz;
+      sum += wave_factors(xy - moved, c / 4)[c & 3] * textureLod(displacement_map, vec3(tile_coordinate(c, xy - moved), float(c)), lod).xyz;
     }
     int regulars = int(counts.y);
+    float regular_factor = wave_factors(xy - moved, cascades / 4)[cascades & 3];
     for (int n = 0; n < regulars; ++n) {
       vec4 wave = regular[n];
       float phase = dot(wave.xy, xy - moved) + wave.w;
-      sum += vec3(-water_leaving.w * normalize(wave.xy) * sin(phase), cos(phase)) * wave.z;
+      sum += vec3(-water_leaving.w * normalize(wave.xy) * sin(phase), cos(phase)) * (wave.z * regular_factor);
     }
     moved = sum.xy;
     height = sum.z;

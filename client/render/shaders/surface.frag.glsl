@@ -26,6 +26,10 @@ struct Waves {
   vec3 variance;   // xx, yy, xy: of the slopes within the footprint
   float folding;   // variance of J within the footprint, of the cascades alone
   float churned;   // share that wakes and splashes have made white
+#if ATTENUATED
+  float steep;     // what shallow water and land leave of the slope variance
+  float hs;        // and of the height, four deviations [m]
+#endif
 };
 
 vec3 normal_of(Waves w) {
@@ -36,7 +40,12 @@ vec3 normal_of(Waves w) {
 // might end early costs them more than what it skips. CASCADES is a constant for the same reason.
 // `xy` is the undisplaced point, `place` where it is now.
 Waves gather(vec2 xy, vec2 place, float distance, float stretch) {
+#if ATTENUATED
+  Waves w = Waves(vec2(0.0), 0.0, vec3(0.0), 0.0, 0.0, 0.0, 0.0);
+  vec4 factors = wave_factors(xy, 0);
+#else
   Waves w = Waves(vec2(0.0), 0.0, vec3(0.0), 0.0, 0.0);
+#endif
   // Footprint: the pixel, longer along the view than across, filtered by one round kernel between
   // the two. Beyond some stretch only the faces that look at the eye are seen, and they are not long.
   stretch = min(stretch, 14.0);
@@ -46,6 +55,13 @@ Waves gather(vec2 xy, vec2 place, float distance, float stretch) {
     float lod = max(footprint - cascade_map[c].w - 0.3, 0.0);
     vec3 at = vec3(tile_coordinate(c, xy), float(c));
     vec4 slope = textureLod(slope_map, at, lod);
+#if ATTENUATED
+    if (c == 4) factors = wave_factors(xy, 1);
+    float factor = factors[c & 3];
+    w.steep += factor * factor * cascade_share[c].w;
+    w.hs += factor * factor * cascade_turn[c].z;
+    slope *= vec4(vec3(factor), factor * factor);
+#endif
     w.slope += slope.xy;
     w.squeeze += slope.z;
     float lost = max(slope.w - dot(slope.xy, slope.xy), 0.0);
@@ -69,8 +85,15 @@ Waves gather(vec2 xy, vec2 place, float distance, float stretch) {
 #endif
 #if REGULARS
   int regulars = int(counts.y);
+#if ATTENUATED
+  float regular_factor = wave_factors(xy, CASCADES / 4)[CASCADES & 3];
+#endif
   for (int n = 0; n < regulars; ++n) {
     vec4 wave = regular[n];
+#if ATTENUATED
+    wave.z *= regular_factor;
+    w.hs += 0.5 * wave.z * wave.z;
+#endif
     float phase = dot(wave.xy, xy) + wave.w;
     w.slope -= wave.xy * wave.z * sin(phase);
     w.squeeze -= water_leaving.w * wave.z * length(wave.xy) * cos(phase);
@@ -86,6 +109,9 @@ Waves gather(vec2 xy, vec2 place, float distance, float stretch) {
     w.variance.xy += 0.5 * max(slope.w - dot(slope.xy, slope.xy), 0.0);
     w.churned += slope.z;
   }
+#endif
+#if ATTENUATED
+  w.hs = 4.0 * sqrt(w.hs);
 #endif
   return w;
 }
@@ -147,9 +173,15 @@ Foam foam_at(vec2 xy, Waves w, float fold, float footprint_log2) {
   vec2 bent = xy + vec2(coarse - 0.5, lace - 0.5) * 1.6;
   float window = textureLod(foam_window_map, bent * foam_window.z + foam_window.xy, window_lod).r;
   float fresh = clamp((window - foam_level.x) * foam_level.y, 0.0, 1.0);
+#if ATTENUATED
+  // The window knows the open sea's foam only.
+  float broken = min(w.steep, 1.0);
+  fresh *= broken;
+  window *= broken;
+#endif
   // The old foam around it is lace with more holes than film.
   cover = mix(cover, max(0.80 * fresh, 0.26 * window), inside);
-#if PATCHES
+#if PATCHES || TERRAIN
   cover = max(cover, 0.9 * min(w.churned, 1.0));
 #endif
 
@@ -163,6 +195,52 @@ Foam foam_at(vec2 xy, Waves w, float fold, float footprint_log2) {
   mask = mix(cover, mask * (0.36 + 0.64 * lace), froth);
   return Foam(mask, clamp(cover * 0.8, 0.0, 1.0), mix(1.0, 0.72 + 0.5 * fine, froth));
 }
+
+#if TERRAIN
+// The bottom as it is seen through the surface.
+struct Shallow {
+  Ground ground;
+  float depth;  // of the water under the surface point, negative on land [m]
+  float slope;  // of the ground there
+  vec3 bottom;  // radiance that it sends up through the surface
+  vec3 shown;   // its share in the water's own colour
+};
+
+// Bottom and water share the light that comes out of a shallow sea (Maritorena, Morel & Gentili 1994):
+// both dim with the way down and up. The ray is bent by the mean surface.
+Shallow shallow_at(vec2 place, float distance, vec3 direction, vec3 n, float footprint_log2) {
+  float height = eye.z + direction.z * distance + dot(place, place) / (2.0 * kEarthRadius);
+  float lod = max(footprint_log2 - ground_noise.z, 0.0);
+  vec4 here = ground_at(place, lod);
+  Shallow s;
+  s.depth = height - here.x;
+  s.slope = length(here.yz);
+  vec3 r = refract(direction, n, 1.0 / 1.34);
+  float down = max(-r.z, 0.35);
+  vec2 at = place + r.xy * (clamp(s.depth, 0.0, 30.0) / down);
+  vec4 there = ground_at(at, lod);
+  float deep = max(height - there.x, 0.0);
+  s.shown = exp(-water_kd.rgb * (deep + deep / down));
+  // What is looked at through water is always wet.
+  there.x = min(there.x, here.x);
+  s.ground = ground_of(at, there, footprint_log2);
+  float lit = max(dot(s.ground.normal, vec3(0.0, 0.0, 1.0)), 0.0);
+  // ground_of() has darkened it as wet: half of that is the surface's doing, which is counted here.
+  s.bottom = bottom_irradiance.rgb * s.ground.albedo * (2.0 * lit);
+  return s;
+}
+
+// Share of the surface that breaks because the water is shallow: most of it on the crests.
+float surf_at(vec2 xy, float depth, Waves w) {
+#if ATTENUATED
+  float hs = w.hs;
+#else
+  float hs = water_kd.w;
+#endif
+  float breaking = 1.0 - smoothstep(0.1, 1.0, depth / max(1.6 * hs, 0.05));
+  return 0.75 * breaking * smoothstep(0.03, 0.3, hs) * (0.4 + 0.6 * smoothstep(-0.2, 0.6, -w.squeeze * 4.0));
+}
+#endif
 
 #if HULLS
 // What stands in the water's mirror for a facet of the given slope, `reach` metres from it. Waves
@@ -216,6 +294,11 @@ vec3 shade_above(vec2 xy, vec2 place, float distance, float stretch, vec3 direct
   body += crest_radiance.rgb * glow;
 
   float footprint = distance * ray_forward.w * sqrt(min(stretch, 14.0));
+#if TERRAIN
+  Shallow shallow = shallow_at(place, distance, direction, n, log2(footprint));
+  body = mix(body, shallow.bottom, shallow.shown);
+  w.churned += surf_at(xy, shallow.depth, w);
+#endif
   Foam foam = foam_at(xy, w, fold, log2(footprint));
   body += foam_irradiance.rgb * foam.bubbles;
 
@@ -225,6 +308,11 @@ vec3 shade_above(vec2 xy, vec2 place, float distance, float stretch, vec3 direct
   vec3 light = sun_irradiance.rgb * max(dot(n, sun_direction.xyz), 0.0) + sky_irradiance.rgb * (0.5 + 0.5 * n.z);
   vec3 white = light * (0.55 / kPi) * foam.shade;
   colour = mix(colour, white, foam.mask * 0.92);
+#if TERRAIN
+  // Where the water ends it is a film on the ground, within a pixel or a hand's breadth.
+  float soft = max(0.04, 0.7 * shallow.slope * distance * ray_forward.w);
+  colour = mix(ground_light(shallow.ground, direction), colour, smoothstep(0.0, soft, shallow.depth));
+#endif
   return through_air(colour, direction, distance);
 }
 
@@ -278,10 +366,11 @@ void main() {
     if (s[n].w > 0.5 && abs(s[n].z) < abs(near.z)) near = s[n];
     if (s[n].w > 0.5 && abs(s[n].z) > abs(far.z)) far = s[n];
   }
-  float covered = 0.0, near_share = 0.0;
+  float covered = 0.0, near_share = 0.0, land = 0.0;
   for (int n = 0; n < SAMPLES; ++n) {
     float share = s[n].w > 0.5 ? 1.0 / float(SAMPLES) : 0.0;
     covered += share;
+    land += s[n].w < -0.5 ? 1.0 / float(SAMPLES) : 0.0;
     bool is_near = abs(abs(s[n].z) - abs(near.z)) < abs(abs(s[n].z) - abs(far.z));
     near_share += is_near ? share : 0.0;
   }
@@ -292,6 +381,7 @@ void main() {
     covered = 1.0;
   }
 #endif
+  covered = min(covered / max(1.0 - land, 1e-3), 1.0);  // of what land, drawn later, leaves
   radiance = vec4(colour * covered, covered);
 #else
   vec4 s = texelFetch(surface_map, pixel, 0);

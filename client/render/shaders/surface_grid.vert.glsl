@@ -17,14 +17,28 @@ void main() {
   float spacing = 0.5 * log2(max(across * along, 1e-6));
   vec3 moved = vec3(0.0);
   int cascades = int(counts.x);
+#if ATTENUATED
+  vec4 factors = wave_factors(xy, 0);
+#endif
   for (int c = 0; c < cascades; ++c) {
     float lod = max(spacing - cascade_map[c].w, 0.0) + 0.8;
     if (lod > 6.0) break;  // cascades grow finer: the rest averages to nothing here
-    moved += textureLod(displacement_map, vec3(tile_coordinate(c, xy), float(c)), lod).xyz;
+    vec3 wave = textureLod(displacement_map, vec3(tile_coordinate(c, xy), float(c)), lod).xyz;
+#if ATTENUATED
+    if (c == 4) factors = wave_factors(xy, 1);
+    wave *= factors[c & 3];
+#endif
+    moved += wave;
   }
   int regulars = int(counts.y);
+#if ATTENUATED
+  float regular_factor = wave_factors(xy, cascades / 4)[cascades & 3];
+#endif
   for (int n = 0; n < regulars; ++n) {
     vec4 wave = regular[n];
+#if ATTENUATED
+    wave.z *= regular_factor;
+#endif
     float phase = dot(wave.xy, xy) + wave.w;
     moved += vec3(-water_leaving.w * normalize(wave.xy) * sin(phase), cos(phase)) * wave.z;
   }
