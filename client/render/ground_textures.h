@@ -16,8 +16,9 @@ namespace onesea::render {
 ///   grain   RGBA8    fine noise, periodic: value, two slopes (0.5 is level), walls between cells
 ///
 /// Samples of small terrain are interpolated by Catmull-Rom's cubic, which goes through them, kept
-/// between its neighbours; large terrain is thinned to kSideMax. Relief is elevation at the finest level; above, the mean of the
-/// mean and the highest, so that narrow walls stand in a coarse mesh, too.
+/// between its neighbours; large terrain is thinned to kSideMax. Relief is elevation at the finest
+/// level; above, the mean of the mean and the highest, so that narrow walls stand in a coarse mesh,
+/// too.
 class GroundTextures {
  public:
   static constexpr int kSideMax = 2048;

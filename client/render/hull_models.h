@@ -31,8 +31,8 @@ SharedHullMesh BarrelModel(double radius_m = 0.3, double height_m = 0.9);
 /// A fender: a ball with two bands; the colour is the instance's.
 SharedHullMesh BallModel(double radius_m = 0.5);
 
-/// A float with round ends, axis along x, centred at the origin; `length_m` is without the ends. Two
-/// bands; the colour is the instance's.
+/// A float with round ends and two bands, axis along x, centred at the origin; `length_m` is
+/// without the ends. The colour is the instance's.
 SharedHullMesh CapsuleModel(double radius_m = 0.4, double length_m = 1.6);
 
 /// Planks lashed over logs that lie along x; bounds centred at the origin.

@@ -18,8 +18,8 @@ constexpr int kSamples = 4;
 constexpr int kHullsMax = 1024;  // in view
 // Coarser meshes have so many cells along the diagonal of their box.
 constexpr float kLevelCells[] = {64.0f, 32.0f, 16.0f, 8.0f};
-// And are drawn when a cell covers at most so many pixels; in the mirror, which has half as many and
-// is blurred by the waves, more.
+// And are drawn when a cell covers at most so many pixels; in the mirror, which has half as many
+// and is blurred by the waves, more.
 constexpr float kCellPixels = 2.2f, kImageCellPixels = 6.0f;
 
 // `zero` is the eye's place on the water level.

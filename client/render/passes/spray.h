@@ -11,8 +11,9 @@
 
 namespace onesea::render {
 
-/// Draws bursts of spray over the finished scene: each is a handful of drops and puffs whose flight
-/// is a closed form of their age, so nothing is kept from picture to picture. Hulls don't hide them.
+/// Draws bursts of spray over the finished scene: each is a handful of drops and puffs whose
+/// flight is a closed form of their age, so nothing is kept from picture to picture. Hulls don't
+/// hide them.
 class SprayPass {
  public:
   static absl::StatusOr<SprayPass> Create();
