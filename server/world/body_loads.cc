@@ -140,6 +140,9 @@ BodyLoads ComputeLoads(const BodyModel& model, const BodyState& state, const Wat
 
   const Vec6 relative = Join(velocity, spin) - out.water_velocity;
   out.damping = Damping(model, out, relative);
+  AddTo(out.damping, 1.0,
+        SternDamping(model.stern, model.rest.wet_high_m.x - model.rest.wet_low_m.x, out.added,
+                     relative[0]));
   out.drag = Join(wet.drag_force_n, wet.drag_torque_n_m);
   out.applied = Join(wet.pressure_force_n + spec.mass_kg * gravity, wet.pressure_torque_n_m) +
                 WindForce(model, turn, state, air);

@@ -80,6 +80,8 @@ absl::StatusOr<std::shared_ptr<const BodyModel>> MakeBodyModel(BodySpec spec,
     model->added_at_rest = EstimateAddedMass(rest, density_kg_per_m3);
     model->added_submerged = EstimateSubmergedAddedMass(solid, centre, density_kg_per_m3);
   }
+  const bool is_round = given.shape.kind != ShapeKind::kBox && given.shape.kind != ShapeKind::kMesh;
+  if (!is_round) model->stern = SternOf(model->mesh, solid, centre);
   model->radiation_damping =
       given.radiation_damping ? *given.radiation_damping : ShareOfCritical(kRadiationShare, *model);
   if (!given.heave_memory.kernel.empty()) {

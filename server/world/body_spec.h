@@ -12,6 +12,7 @@
 #include "server/world/hydrostatics.h"
 #include "server/world/propulsion.h"
 #include "server/world/radiation_memory.h"
+#include "server/world/stern_flow.h"
 #include "server/world/wet_hull.h"
 
 /// What a floating body is.
@@ -76,6 +77,7 @@ struct BodyModel {
   Hydrostatics rest;
   Mat6 rigid_mass{};  ///< mass and inertia about the centre of mass
   Mat6 added_at_rest{}, added_submerged{};
+  Stern stern = {};
   Mat6 radiation_damping{}, viscous_damping{};
   double memory_damping = 0.0;  ///< of heave_memory within one step, taken implicitly
 };
