@@ -5,13 +5,16 @@
 #include <unistd.h>
 
 #include <array>
+#include <utility>
 
 #include "common/base/check.h"
+#include "common/base/clock.h"
 #include "tests/shared/loopback.h"
 
 namespace onesea::e2e {
 
-TcpRelay::TcpRelay(int server_port) : server_port_(server_port) {
+TcpRelay::TcpRelay(int server_port, std::int64_t delay_ns)
+    : server_port_(server_port), delay_ns_(delay_ns) {
   listener_ = socket(AF_INET, SOCK_STREAM, 0);
   sockaddr_in address = Loopback(0);
   socklen_t size = sizeof(address);
@@ -47,16 +50,26 @@ void TcpRelay::Accept() {
   pairs_.push_back({client, server});
 }
 
-bool TcpRelay::Carry(int from, int to, std::atomic<std::int64_t>& count) {
+bool TcpRelay::Carry(int from, int to, std::atomic<std::int64_t>& count, Pair& pair) {
   std::array<char, 65536> buffer;
   const ssize_t size = recv(from, buffer.data(), buffer.size(), 0);
   if (size <= 0) return false;
   count += size;
-  for (ssize_t sent = 0; sent < size;) {
-    const ssize_t n =
-        send(to, buffer.data() + sent, static_cast<std::size_t>(size - sent), MSG_NOSIGNAL);
-    if (n <= 0) return false;
-    sent += n;
+  pair.under_way.push_back({to, SystemClock().MonotonicNs() + delay_ns_,
+                            std::string(buffer.data(), static_cast<std::size_t>(size))});
+  return true;
+}
+
+bool TcpRelay::Deliver(Pair& pair) {
+  const std::int64_t now_ns = SystemClock().MonotonicNs();
+  for (; !pair.under_way.empty() && pair.under_way.front().due_ns <= now_ns;
+       pair.under_way.pop_front()) {
+    const auto& [to, due_ns, bytes] = pair.under_way.front();
+    for (std::size_t sent = 0; sent < bytes.size();) {
+      const ssize_t n = send(to, bytes.data() + sent, bytes.size() - sent, MSG_NOSIGNAL);
+      if (n <= 0) return false;
+      sent += static_cast<std::size_t>(n);
+    }
   }
   return true;
 }
@@ -68,21 +81,22 @@ void TcpRelay::Run() {
       fds.push_back({pair.client, POLLIN, 0});
       fds.push_back({pair.server, POLLIN, 0});
     }
-    poll(fds.data(), fds.size(), 10);
+    poll(fds.data(), fds.size(), delay_ns_ > 0 ? 1 : 10);
     std::vector<Pair> alive;
     for (std::size_t n = 0; n < pairs_.size(); ++n) {
-      const Pair& pair = pairs_[n];
+      Pair& pair = pairs_[n];
       bool ok = !cut_;
-      if (ok && fds[1 + 2 * n].revents != 0) ok = Carry(pair.client, pair.server, to_server_);
-      if (ok && fds[2 + 2 * n].revents != 0) ok = Carry(pair.server, pair.client, to_client_);
+      if (ok && fds[1 + 2 * n].revents != 0) ok = Carry(pair.client, pair.server, to_server_, pair);
+      if (ok && fds[2 + 2 * n].revents != 0) ok = Carry(pair.server, pair.client, to_client_, pair);
+      ok = ok && Deliver(pair);
       if (ok) {
-        alive.push_back(pair);
+        alive.push_back(std::move(pair));
       } else {
         close(pair.client);
         close(pair.server);
       }
     }
-    pairs_ = alive;
+    pairs_ = std::move(alive);
     if (fds[0].revents != 0) Accept();
   }
 }
