@@ -6,6 +6,7 @@
 #include <ostream>
 
 #include "absl/strings/str_format.h"
+#include "absl/strings/str_join.h"
 #include "client/app/cli_commands.h"
 #include "client/app/cli_server.h"
 #include "client/app/json_writer.h"
@@ -46,7 +47,8 @@ absl::StatusOr<wire::QueryRequest> ReadRequest(const Arguments& arguments) {
 
 // The same question to the sea of this process, as an answer of the same form.
 absl::StatusOr<wire::QueryAnswer> AskLocally(const Sea& sea, const wire::QueryRequest& request,
-                                             double time_s) {
+                                             const wire::QueryAnswer& server) {
+  const double time_s = server.time_s;
   std::vector<Place> places;
   for (const Vec2d point : request.points_m) places.push_back({point.x, point.y});
   std::vector<Water> water(places.size());
@@ -54,7 +56,9 @@ absl::StatusOr<wire::QueryAnswer> AskLocally(const Sea& sea, const wire::QueryRe
   wire::QueryAnswer answer;
   answer.time_s = time_s;
   answer.height_error_bound_m = sea.HeightErrorBound(time_s);
+  answer.layers = server.layers & ~sea::kLayerInteraction;
   for (std::size_t n = 0; n < water.size(); ++n) {
+    if (water[n].dry) answer.dry_indices.push_back(static_cast<std::int32_t>(n));
     answer.height_m.push_back(static_cast<float>(water[n].height_m));
     if (water[n].folded) answer.folded_indices.push_back(static_cast<std::int32_t>(n));
     for (int axis = 0; axis < 3; ++axis) {
@@ -67,6 +71,7 @@ absl::StatusOr<wire::QueryAnswer> AskLocally(const Sea& sea, const wire::QueryRe
   if (request.depth_m.empty()) return answer;
   std::vector<Underwater> under(places.size());
   ONESEA_RETURN_IF_ERROR(sea.SampleAtDepth(places, request.depth_m, time_s, under));
+  answer.dry_indices.clear();  // land and what lies above the water
   for (std::size_t n = 0; n < under.size(); ++n) {
     if (under[n].dry) answer.dry_indices.push_back(static_cast<std::int32_t>(n));
     for (const double v : under[n].velocity_m_per_s)
@@ -100,7 +105,14 @@ struct Reply {
   }
 };
 
-bool HasWakes(const Reply& reply) { return (reply.shown.layers & sea::kLayerInteraction) != 0; }
+// What the heights are made of.
+std::vector<const char*> LayerNames(std::uint32_t layers) {
+  std::vector<const char*> names = {"spectral"};
+  if ((layers & sea::kLayerTerrain) != 0) names.push_back("terrain");
+  if ((layers & sea::kLayerWaterLevel) != 0) names.push_back("water_level");
+  if ((layers & sea::kLayerInteraction) != 0) names.push_back("interaction");
+  return names;
+}
 
 void PrintJson(const Reply& reply, std::ostream& out) {
   JsonWriter json;
@@ -108,8 +120,8 @@ void PrintJson(const Reply& reply, std::ostream& out) {
   json.Key("time_s").Value(reply.shown.time_s);
   json.Key("computed").Value(reply.server ? "here" : "by the server");
   json.Key("height_error_bound_m").Value(reply.shown.height_error_bound_m);
-  json.Key("layers").BeginArray().Value("spectral");
-  if (HasWakes(reply)) json.Value("interaction");
+  json.Key("layers").BeginArray();
+  for (const char* name : LayerNames(reply.shown.layers)) json.Value(name);
   json.EndArray();
   json.Key("points").BeginArray();
   for (std::size_t n = 0; n < reply.request.points_m.size(); ++n) {
@@ -117,11 +129,11 @@ void PrintJson(const Reply& reply, std::ostream& out) {
     json.Key("y_m").Value(reply.request.points_m[n].y);
     json.Key("height_m").Value(reply.shown.height_m[n]);
     json.Key("folded").Value(Contains(reply.shown.folded_indices, n));
+    json.Key("dry").Value(Contains(reply.shown.dry_indices, n));
     WriteTriple("normal", reply.shown.normal, n, json);
     WriteTriple("velocity_m_per_s", reply.shown.velocity_m_per_s, n, json);
     if (!reply.request.depth_m.empty()) {
       json.Key("depth_m").Value(reply.request.depth_m[n]);
-      json.Key("dry").Value(Contains(reply.shown.dry_indices, n));
       WriteTriple("depth_velocity_m_per_s", reply.shown.depth_velocity_m_per_s, n, json);
       json.Key("dynamic_pressure_pa").Value(reply.shown.dynamic_pressure_pa[n]);
     }
@@ -142,10 +154,10 @@ void PrintTriple(absl::string_view name, const std::vector<float>& values, std::
 }
 
 void PrintText(const Reply& reply, std::ostream& out) {
-  out << absl::StreamFormat("%s at %.3f s, computed %s, error bound %.1f mm%s\n", reply.session,
-                            reply.shown.time_s, reply.server ? "here" : "by the server",
-                            1e3 * reply.shown.height_error_bound_m,
-                            HasWakes(reply) ? ", with wakes" : "");
+  out << absl::StreamFormat(
+      "%s at %.3f s, computed %s, error bound %.1f mm, layers: %s\n", reply.session,
+      reply.shown.time_s, reply.server ? "here" : "by the server",
+      1e3 * reply.shown.height_error_bound_m, absl::StrJoin(LayerNames(reply.shown.layers), ", "));
   for (std::size_t n = 0; n < reply.request.points_m.size(); ++n) {
     const Vec2d point = reply.request.points_m[n];
     out << absl::StreamFormat("(%g, %g): height %+.4f m", point.x, point.y,
@@ -157,9 +169,11 @@ void PrintText(const Reply& reply, std::ostream& out) {
     PrintTriple("normal", reply.shown.normal, n, out);
     PrintTriple("velocity m/s", reply.shown.velocity_m_per_s, n, out);
     if (Contains(reply.shown.folded_indices, n)) out << ", folded";
+    const bool dry = Contains(reply.shown.dry_indices, n);
+    if (dry && reply.request.depth_m.empty()) out << ", dry land";
     if (!reply.request.depth_m.empty()) {
       out << absl::StreamFormat("; at %g m depth", reply.request.depth_m[n]);
-      if (Contains(reply.shown.dry_indices, n)) {
+      if (dry) {
         out << " dry";
       } else {
         out << absl::StreamFormat(" dynamic pressure %.1f Pa", reply.shown.dynamic_pressure_pa[n]);
@@ -182,7 +196,7 @@ absl::Status RunQuery(const CliContext& context, const Arguments& arguments) {
   if (arguments.Has("local")) {
     ONESEA_ASSIGN_OR_RETURN(const auto sea, JoinSession(context, chosen.info.name));
     reply.server = std::move(reply.shown);
-    ONESEA_ASSIGN_OR_RETURN(reply.shown, AskLocally(*sea, reply.request, reply.server->time_s));
+    ONESEA_ASSIGN_OR_RETURN(reply.shown, AskLocally(*sea, reply.request, *reply.server));
   }
   if (context.json) {
     PrintJson(reply, context.out);

@@ -9,8 +9,6 @@ namespace onesea::client {
 namespace {
 
 constexpr sea::FoamWindowOptions kFoamOptions;
-// While the weather changes the sea over terrain is reckoned anew this often.
-constexpr double kWeightStep = 0.005;
 
 }  // namespace
 
@@ -26,31 +24,7 @@ void FrameBuilder::Adopt(const std::shared_ptr<const sea::Components>& component
   foam_ = std::make_unique<sea::FoamWindow>(components, kFoamOptions);
   snapshots_ = std::make_unique<sea::SnapshotBuilder>(components);
   snapshot_ = nullptr;
-  attenuation_ = nullptr;
-}
-
-void FrameBuilder::SetTerrain(std::shared_ptr<const sea::Terrain> terrain) {
-  if (terrain == terrain_) return;
-  terrain_ = std::move(terrain);
-  attenuation_ = nullptr;
-}
-
-void FrameBuilder::UpdateAttenuation() {
-  if (terrain_ == nullptr) {
-    attenuation_grid_ = nullptr;
-    return;
-  }
-  const std::vector<double> weights = sea::WeatherWeights(components_->recipe, time_);
-  const auto close = [](double a, double b) { return std::abs(a - b) < kWeightStep; };
-  if (attenuation_ == nullptr) {
-    attenuation_ = std::make_unique<sea::Attenuation>(components_, *terrain_);
-  } else if (std::equal(weights.begin(), weights.end(), attenuation_weights_.begin(),
-                        attenuation_weights_.end(), close)) {
-    return;
-  }
-  attenuation_weights_ = weights;
-  attenuation_grid_ =
-      std::make_shared<const sea::AttenuationGrid>(attenuation_->At(attenuation_weights_));
+  attenuation_.emplace(components);
 }
 
 void FrameBuilder::FillWeather(render::RenderFrame& frame) const {
@@ -120,9 +94,9 @@ void FrameBuilder::Fill(const std::shared_ptr<const sea::Components>& components
   frame.choppiness = components->recipe.choppiness;
   FillWeather(frame);
   FillPatches(frame);
-  UpdateAttenuation();
-  frame.terrain = terrain_;
-  frame.attenuation = attenuation_grid_;
+  frame.terrain =
+      components->attenuation == nullptr ? nullptr : components->attenuation->shared_terrain();
+  frame.attenuation = attenuation_->At(time);
   frame.water_level_m = water_level_m_;
 }
 

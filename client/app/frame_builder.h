@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,7 +34,7 @@ class FrameBuilder {
   /// `grid_size` N of the synthesis: 64, 128, ..., 1024.
   explicit FrameBuilder(int grid_size) : grid_size_(grid_size) {}
 
-  /// Fills the sea's part of `frame` (waves, foam, wind, time); the camera's place must be set. The
+  /// Fills the sea's part of `frame` (waves, foam, wind, time, and the terrain of the components); the camera's place must be set. The
   /// frame borrows from this object until the next call. Cost: about 5 ms at N = 256; the
   /// first call and each change of weather: up to 1 s for the foam's past.
   void Fill(const std::shared_ptr<const sea::Components>& components, SimTime time,
@@ -43,8 +44,6 @@ class FrameBuilder {
   /// HeightAt(). A field that the last snapshot held too is not uploaded anew.
   void SetInteraction(std::shared_ptr<const sea::InteractionSnapshot> interaction);
 
-  /// From the next Fill() on, draws this land and seabed (null: neither) and the sea lower over it.
-  void SetTerrain(std::shared_ptr<const sea::Terrain> terrain);
   void SetWaterLevel(double level_m) { water_level_m_ = level_m; }
 
   /// Height of the sea at a place at the time of the last Fill().
@@ -56,7 +55,6 @@ class FrameBuilder {
   void Adopt(const std::shared_ptr<const sea::Components>& components);
   void FillWeather(render::RenderFrame& frame) const;
   void FillPatches(render::RenderFrame& frame) const;
-  void UpdateAttenuation();
 
   int grid_size_;
   SimTime time_;
@@ -69,11 +67,8 @@ class FrameBuilder {
   std::shared_ptr<const sea::InteractionSnapshot> interaction_;
   std::vector<std::uint64_t> versions_;  // of each field of interaction_
   std::uint64_t last_version_ = 0;
-  std::shared_ptr<const sea::Terrain> terrain_;
   double water_level_m_ = 0.0;
-  std::unique_ptr<sea::Attenuation> attenuation_;  // of components_ over terrain_
-  std::vector<double> attenuation_weights_;        // of the weather, of attenuation_grid_
-  std::shared_ptr<const sea::AttenuationGrid> attenuation_grid_;
+  std::optional<sea::MovingAttenuation> attenuation_;
 };
 
 }  // namespace onesea::client

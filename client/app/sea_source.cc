@@ -9,9 +9,11 @@
 #include "client/model/local_sea.h"
 #include "client/net/remote_server.h"
 #include "client/net/session_client.h"
+#include "client/net/terrain_fetcher.h"
 #include "common/base/check.h"
 #include "common/base/clock.h"
 #include "common/ingest/terrain_file.h"
+#include "common/sea/attenuation.h"
 #include "common/wire/session_file.h"
 
 namespace onesea::client {
@@ -19,16 +21,17 @@ namespace {
 
 class FileSource : public SeaSource {
  public:
-  FileSource(std::string path, SessionSpec spec, std::shared_ptr<const sea::Components> components,
-             std::shared_ptr<const sea::Terrain> terrain)
+  FileSource(std::string path, SessionSpec spec, std::shared_ptr<const sea::Components> components)
       : path_(std::move(path)),
         speed_(spec.speed),
+        water_level_(std::move(spec.world.water_level)),
         components_(std::move(components)),
-        terrain_(std::move(terrain)),
         start_ns_(SystemClock().MonotonicNs()) {}
 
   std::shared_ptr<const sea::Components> components() const override { return components_; }
-  std::shared_ptr<const sea::Terrain> terrain() const override { return terrain_; }
+  double WaterLevelAt(SimTime time) const override {
+    return wire::WaterLevelAt(water_level_, time);
+  }
   SimTime Now() override {
     return SimTime::FromSeconds(speed_ * 1e-9 *
                                 static_cast<double>(SystemClock().MonotonicNs() - start_ns_));
@@ -46,8 +49,8 @@ class FileSource : public SeaSource {
  private:
   std::string path_;
   double speed_;
+  std::vector<wire::WaterLevel> water_level_;
   std::shared_ptr<const sea::Components> components_;
-  std::shared_ptr<const sea::Terrain> terrain_;
   std::int64_t start_ns_;
 };
 
@@ -61,10 +64,24 @@ class ServerSource : public SeaSource, private SessionListener {
     options.session = session;
     options.every_frame = true;  // bodies and wakes move in every one
     options.client_name = "onesea-view";
+    terrain_ = std::make_unique<TerrainFetcher>(
+        ConnectTo(address_), session_,
+        TerrainFetcher::Events{.on_terrain =
+                                   [this](std::shared_ptr<const sea::Terrain> terrain) {
+                                     sea()->SetTerrain(std::move(terrain));
+                                   },
+                               .on_failed =
+                                   [this](const absl::Status& status) {
+                                     absl::MutexLock lock(&mutex_);
+                                     status_ = status;
+                                   }});
     client_ = std::make_unique<SessionClient>(ConnectTo(address_), options,
                                               static_cast<SessionListener&>(*this));
   }
-  ~ServerSource() override { client_->Stop(); }
+  ~ServerSource() override {
+    client_->Stop();
+    terrain_->Stop();
+  }
 
   // OK once a sea is there and its time is known.
   absl::Status WaitForSea(std::int64_t timeout_ns) {
@@ -79,9 +96,11 @@ class ServerSource : public SeaSource, private SessionListener {
   }
 
   std::shared_ptr<const sea::Components> components() const override {
-    absl::MutexLock lock(&mutex_);
-    return sea_ == nullptr ? nullptr : sea_->components();
+    const LocalSea* const sea = this->sea();
+    return sea == nullptr ? nullptr : sea->components();
   }
+  double WaterLevelAt(SimTime time) const override { return sea()->WaterLevelAt(time); }
+  bool terrain_is_coming() const override { return sea()->missing_terrain() != 0; }
   std::shared_ptr<const WorldView> world() const override { return world_.view(); }
   CommandSender* commands() override { return &sender_; }
   std::vector<wire::Spray> TakeSpray() override { return world_.TakeSpray(); }
@@ -106,26 +125,35 @@ class ServerSource : public SeaSource, private SessionListener {
   }
 
  private:
-  void OnFrame(const wire::Frame& frame) override {
+  // Null before the first welcome; then the same for ever.
+  LocalSea* sea() const {
     absl::MutexLock lock(&mutex_);
-    if (frame.welcome.has_value()) Welcome(*frame.welcome);
-    if (sea_ != nullptr) {
-      // A frame that doesn't fit is made good by the next keyframe.
-      world_.Apply(frame, sea_->components()->recipe.tick_rate_hz).IgnoreError();
-    }
-    if (frame.probes.has_value() && sea_ != nullptr) {
-      const absl::StatusOr<double> drift = sea_->CompareProbes(*frame.probes);
-      if (drift.ok()) client_->ReportDrift(*drift);
-    }
+    return sea_.get();
   }
-  void Welcome(const wire::Welcome& welcome) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_) {
-    if (sea_ != nullptr) {
-      status_ = sea_->Follow(welcome);
-      return;
+  void OnFrame(const wire::Frame& frame) override {
+    if (frame.welcome.has_value()) Welcome(*frame.welcome);
+    LocalSea* const sea = this->sea();
+    if (sea == nullptr) return;
+    // A frame that doesn't fit is made good by the next keyframe.
+    world_.Apply(frame, sea->components()->recipe.tick_rate_hz).IgnoreError();
+    if (!frame.probes.has_value()) return;
+    const absl::StatusOr<double> drift = sea->CompareProbes(*frame.probes);
+    if (drift.ok()) client_->ReportDrift(*drift);
+  }
+  // Building takes long: pictures go on meanwhile.
+  void Welcome(const wire::Welcome& welcome) {
+    std::unique_ptr<LocalSea> made;
+    const absl::Status status = [&]() -> absl::Status {
+      if (LocalSea* const followed = sea()) return followed->Follow(welcome);
+      ONESEA_ASSIGN_OR_RETURN(made, LocalSea::Make(welcome));
+      return absl::OkStatus();
+    }();
+    {
+      absl::MutexLock lock(&mutex_);
+      status_ = status;
+      if (made != nullptr) sea_ = std::move(made);
     }
-    absl::StatusOr<std::unique_ptr<LocalSea>> sea = LocalSea::Make(welcome);
-    status_ = sea.status();
-    if (sea.ok()) sea_ = std::move(*sea);
+    if (status.ok()) terrain_->Want(sea()->missing_terrain());
   }
   void OnLink(const LinkEvent& event) override {
     absl::MutexLock lock(&mutex_);
@@ -156,6 +184,7 @@ class ServerSource : public SeaSource, private SessionListener {
   std::string link_ ABSL_GUARDED_BY(mutex_) = "connecting";
   absl::Status status_ ABSL_GUARDED_BY(mutex_);
   CommandSender sender_;
+  std::unique_ptr<TerrainFetcher> terrain_;
   std::unique_ptr<SessionClient> client_;  // last: stops before what it calls is gone
 };
 
@@ -186,14 +215,13 @@ absl::StatusOr<std::unique_ptr<SeaSource>> OpenSessionFile(const std::string& pa
   ONESEA_ASSIGN_OR_RETURN(SessionSpec spec, wire::ReadSessionFile(path));
   ONESEA_ASSIGN_OR_RETURN(std::shared_ptr<const sea::Components> components,
                           sea::BuildComponents(spec.recipe));
-  std::shared_ptr<const sea::Terrain> terrain;
   if (!spec.world.terrain_path.empty()) {
-    ONESEA_ASSIGN_OR_RETURN(sea::Terrain read,
+    ONESEA_ASSIGN_OR_RETURN(sea::Terrain terrain,
                             ingest::ReadTerrainFile(spec.world.terrain_path, {}));
-    terrain = std::make_shared<const sea::Terrain>(std::move(read));
+    components = sea::OverTerrain(std::move(components),
+                                  std::make_shared<const sea::Terrain>(std::move(terrain)));
   }
-  return std::make_unique<FileSource>(path, std::move(spec), std::move(components),
-                                      std::move(terrain));
+  return std::make_unique<FileSource>(path, std::move(spec), std::move(components));
 }
 
 absl::StatusOr<std::unique_ptr<SeaSource>> JoinServer(const std::string& address,

@@ -9,7 +9,6 @@
 #include "client/net/command_sender.h"
 #include "common/base/sim_time.h"
 #include "common/sea/components.h"
-#include "common/sea/terrain.h"
 #include "common/wire/session_spec.h"
 
 namespace onesea::client {
@@ -28,14 +27,17 @@ struct SourceReport {
 class SeaSource {
  public:
   virtual ~SeaSource() = default;
-  /// The waves in force; another object after a change of weather.
+  /// The waves in force, over their terrain if there is one (`attenuation`); another object after a
+  /// change of weather and when the terrain has come.
   virtual std::shared_ptr<const sea::Components> components() const = 0;
+  /// Mean level of the whole sea [m], to be added to every height.
+  virtual double WaterLevelAt(SimTime /*time*/) const { return 0.0; }
+  /// Is the sea still drawn without the terrain that it lies over?
+  virtual bool terrain_is_coming() const { return false; }
   /// Wakes and bodies; null: this source has none.
   virtual std::shared_ptr<const WorldView> world() const { return nullptr; }
   /// The way for commands; null: there is none. Lives as long as this.
   virtual CommandSender* commands() { return nullptr; }
-  /// Land and seabed; null: this source has none.
-  virtual std::shared_ptr<const sea::Terrain> terrain() const { return nullptr; }
   /// Spray since the last call.
   virtual std::vector<wire::Spray> TakeSpray() { return {}; }
   /// The moment to draw now.

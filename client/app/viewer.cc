@@ -64,12 +64,11 @@ class Scene {
     frame_.camera = cockpit.At(0.0);
     if (const std::shared_ptr<const WorldView> world = source.world(); world != nullptr) {
       builder_.SetInteraction(world->shared_interaction());
-      builder_.SetWaterLevel(world->water_level_m());
       frame_.hulls = models_.At(*world, time, cockpit.own());
       spray_.Add(source.TakeSpray(), world->time());
       frame_.spray = spray_.At(time);
     }
-    builder_.SetTerrain(source.terrain());
+    builder_.SetWaterLevel(source.WaterLevelAt(time));
     builder_.Fill(source.components(), time, frame_);
     frame_.camera = cockpit.At(builder_.HeightAt(cockpit.place()));
     ApplySettings(settings, frame_);

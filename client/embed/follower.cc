@@ -69,7 +69,7 @@ void Follower::Run() {
       events_.on_new_sea();
     }
     LocalSea* const sea = this->sea();
-    if (!probes.has_value() || sea == nullptr) continue;
+    if (!probes.has_value() || sea == nullptr || sea->missing_terrain() != 0) continue;
     const absl::StatusOr<double> drift_m = sea->CompareProbes(*probes);
     if (drift_m.ok()) {
       events_.on_compared(sea->drift());

@@ -54,13 +54,21 @@ JoinedSea::JoinedSea(const std::string& address, const std::string& session,
                      const JoinOptions& options)
     : on_event_(options.on_event) {
   follower_ = std::make_unique<Follower>(
-      Follower::Events{.on_new_sea = [this] { Tell("the sea is followed"); },
+      Follower::Events{.on_new_sea = [this] { OnNewSea(); },
                        .on_compared =
                            [this](const Drift& drift) {
                              if (SessionClient* const sink = drift_sink_)
                                sink->ReportDrift(drift.last_m);
                            },
                        .on_refused = [this](const absl::Status& status) { Fail(status); }});
+  terrain_ = std::make_unique<TerrainFetcher>(
+      ConnectTo(address), session,
+      TerrainFetcher::Events{.on_terrain =
+                                 [this](std::shared_ptr<const sea::Terrain> terrain) {
+                                   follower_->sea()->SetTerrain(std::move(terrain));
+                                   Tell("the terrain has come");
+                                 },
+                             .on_failed = [this](const absl::Status& status) { Fail(status); }});
   SessionClientOptions link;
   link.session = session;
   if (!options.client_name.empty()) link.client_name = options.client_name;
@@ -68,10 +76,11 @@ JoinedSea::JoinedSea(const std::string& address, const std::string& session,
   drift_sink_ = client_.get();
 }
 
-// First no more frames, then no more work on them, which may still report to the client; then the
-// client.
+// First no more frames and no more terrain for the follower, then no more work on them, which may
+// still report to the others; then those.
 JoinedSea::~JoinedSea() {
   client_->Stop();
+  terrain_->Stop();
   follower_.reset();
 }
 
@@ -87,14 +96,23 @@ absl::Status JoinedSea::WaitUntilReady(double timeout_s) {
         return link_.status;
       }
     }
-    if (follower_->sea() != nullptr && client_->Now().valid) return absl::OkStatus();
+    if (UsableSea() != nullptr && client_->Now().valid) return absl::OkStatus();
     absl::SleepFor(absl::Milliseconds(1));
+  }
+  if (follower_->sea() != nullptr && follower_->sea()->missing_terrain() != 0) {
+    return absl::UnavailableError(
+        absl::StrFormat("the session's terrain did not come within %g s", timeout_s));
   }
   return absl::UnavailableError(
       absl::StrFormat("the server did not complete joining within %g s", timeout_s));
 }
 
 void JoinedSea::OnFrame(const wire::Frame& frame) { follower_->Offer(frame); }
+
+void JoinedSea::OnNewSea() {
+  Tell("the sea is followed");
+  terrain_->Want(follower_->sea()->missing_terrain());
+}
 
 void JoinedSea::OnLink(const LinkEvent& event) {
   {
@@ -131,7 +149,16 @@ absl::Status JoinedSea::status() const {
   return status_;
 }
 
-LocalSea* JoinedSea::UsableSea() const { return status().ok() ? follower_->sea() : nullptr; }
+LocalSea* JoinedSea::UsableSea() const {
+  LocalSea* const sea = status().ok() ? follower_->sea() : nullptr;
+  return sea == nullptr || sea->missing_terrain() != 0 ? nullptr : sea;
+}
+
+absl::Status JoinedSea::UsableStatus() const {
+  ONESEA_RETURN_IF_ERROR(status());
+  if (UsableSea() != nullptr) return absl::OkStatus();
+  return absl::UnavailableError("the session's terrain has not come yet");
+}
 
 double JoinedSea::Now() const { return client_->Now().render.Seconds(); }
 
@@ -149,22 +176,25 @@ double JoinedSea::HeightAt(double x_m, double y_m, double time_s) const {
 
 absl::Status JoinedSea::Sample(std::span<const Place> places, double time_s, Detail detail,
                                std::span<Water> out) const {
-  ONESEA_RETURN_IF_ERROR(status());
+  ONESEA_RETURN_IF_ERROR(UsableStatus());
   ONESEA_RETURN_IF_ERROR(CheckRequest(places, time_s, out.size()));
   if (detail < Detail::kHeight || detail > Detail::kVelocity) {
     return absl::InvalidArgumentError(absl::StrFormat(
         "detail is %d, it must be kHeight (1), kNormal (2) or kVelocity (3)", detail));
   }
+  const LocalSea& sea = *follower_->sea();
+  const std::vector<Vec2d> points = Points(places);
+  const std::shared_ptr<const sea::Terrain> terrain = sea.terrain();
   std::vector<sea::SurfaceSample> samples(places.size());
-  follower_->sea()->Sample(Points(places), SimTime::FromSeconds(time_s),
-                           static_cast<sea::QueryDetail>(detail), samples);
+  sea.Sample(points, SimTime::FromSeconds(time_s), static_cast<sea::QueryDetail>(detail), samples);
   for (std::size_t n = 0; n < samples.size(); ++n) {
     const sea::SurfaceSample& sample = samples[n];
     out[n] = {.height_m = sample.height_m,
               .normal = {sample.normal_x, sample.normal_y, sample.normal_z},
               .velocity_m_per_s = {sample.velocity_x_m_per_s, sample.velocity_y_m_per_s,
                                    sample.velocity_z_m_per_s},
-              .folded = sample.folded};
+              .folded = sample.folded,
+              .dry = terrain != nullptr && terrain->IsDry(points[n], double{sample.height_m})};
   }
   return absl::OkStatus();
 }
@@ -172,7 +202,7 @@ absl::Status JoinedSea::Sample(std::span<const Place> places, double time_s, Det
 absl::Status JoinedSea::SampleAtDepth(std::span<const Place> places,
                                       std::span<const double> depth_m, double time_s,
                                       std::span<Underwater> out) const {
-  ONESEA_RETURN_IF_ERROR(status());
+  ONESEA_RETURN_IF_ERROR(UsableStatus());
   ONESEA_RETURN_IF_ERROR(CheckRequest(places, time_s, out.size()));
   if (depth_m.size() != places.size()) {
     return absl::InvalidArgumentError(
@@ -189,10 +219,13 @@ absl::Status JoinedSea::SampleAtDepth(std::span<const Place> places,
   std::vector<sea::SurfaceSample> surface(points.size());
   std::vector<sea::DepthSample> samples(points.size());
   sea.Sample(points, time, sea::QueryDetail::kHeight, surface);
-  sea::SampleAtDepth(*sea.components(), time, points, depth_m, samples);
+  sea.SampleAtDepth(points, depth_m, time, samples);
+  const std::shared_ptr<const sea::Terrain> terrain = sea.terrain();
   for (std::size_t n = 0; n < points.size(); ++n) {
     out[n] = {};
-    out[n].dry = -depth_m[n] > surface[n].height_m;
+    const double height_m = double{surface[n].height_m};
+    out[n].dry =
+        -depth_m[n] > height_m || (terrain != nullptr && terrain->IsDry(points[n], height_m));
     if (out[n].dry) continue;
     const Vec3d velocity = samples[n].velocity_m_per_s;
     out[n] = {.velocity_m_per_s = {velocity.x, velocity.y, velocity.z},

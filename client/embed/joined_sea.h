@@ -11,11 +11,13 @@
 #include "absl/synchronization/mutex.h"
 #include "client/embed/follower.h"
 #include "client/net/session_client.h"
+#include "client/net/terrain_fetcher.h"
 #include "onesea/onesea.h"
 
 namespace onesea::client {
 
-/// The Sea that Join() hands out: a SessionClient for frames and time, a Follower for the waves.
+/// The Sea that Join() hands out: a SessionClient for frames and time, a Follower for the waves, a
+/// TerrainFetcher for what lies below them.
 class JoinedSea final : public Sea, public SessionListener {
  public:
   JoinedSea(const std::string& address, const std::string& session, const JoinOptions& options);
@@ -39,10 +41,13 @@ class JoinedSea final : public Sea, public SessionListener {
  private:
   void OnFrame(const wire::Frame& frame) override;
   void OnLink(const LinkEvent& event) override;
+  void OnNewSea();
   void Tell(const std::string& line) const;
   void Fail(const absl::Status& status);
-  // The sea, or null once this process can't show it any more.
+  // The sea, or null once this process can't show it any more, or not yet again because a terrain is
+  // missing.
   LocalSea* UsableSea() const;
+  absl::Status UsableStatus() const;
 
   const std::function<void(const std::string&)> on_event_;
   mutable absl::Mutex mutex_;
@@ -50,6 +55,7 @@ class JoinedSea final : public Sea, public SessionListener {
   LinkEvent link_ ABSL_GUARDED_BY(mutex_);
   std::atomic<SessionClient*> drift_sink_{nullptr};  // client_, once it is constructed
   std::unique_ptr<Follower> follower_;
+  std::unique_ptr<TerrainFetcher> terrain_;
   std::unique_ptr<SessionClient> client_;
 };
 

@@ -8,6 +8,7 @@
 #include "client/model/other_sea.h"
 #include "common/base/check.h"
 #include "common/base/limits.h"
+#include "common/sea/attenuation.h"
 
 namespace onesea::client {
 namespace {
@@ -31,6 +32,15 @@ absl::StatusOr<std::shared_ptr<const sea::Components>> BuildSameComponents(
       welcome.session.name, components->hash, welcome.component_hash));
 }
 
+std::shared_ptr<const sea::Terrain> TerrainOf(const sea::Components& components) {
+  return components.attenuation == nullptr ? nullptr : components.attenuation->shared_terrain();
+}
+
+// What every height gets; the server adds it in the same way.
+void AddLevel(double level_m, std::span<sea::SurfaceSample> samples) {
+  for (sea::SurfaceSample& sample : samples) sample.height_m += static_cast<float>(level_m);
+}
+
 }  // namespace
 
 absl::StatusOr<std::unique_ptr<LocalSea>> LocalSea::Make(const wire::Welcome& welcome) {
@@ -40,20 +50,55 @@ absl::StatusOr<std::unique_ptr<LocalSea>> LocalSea::Make(const wire::Welcome& we
 }
 
 absl::Status LocalSea::Follow(const wire::Welcome& welcome) {
+  absl::MutexLock one_at_a_time(&change_mutex_);
+  const std::uint64_t wanted = welcome.session.terrain_hash;
+  const std::shared_ptr<const sea::Terrain> terrain =
+      wanted != 0 && wanted == terrain_hash_ ? terrain_ : nullptr;
   auto next = std::make_shared<Version>();
   next->session = welcome.session;
+  next->water_level = welcome.water_level;
+  next->missing_terrain = terrain == nullptr ? wanted : 0;
   const std::shared_ptr<const Version> current = version();
   if (current != nullptr && current->components->hash == welcome.component_hash &&
-      current->components->recipe == welcome.recipe) {
+      current->components->recipe == welcome.recipe && TerrainOf(*current->components) == terrain) {
     next->components = current->components;
     next->snapshots = current->snapshots;
   } else {
     ONESEA_ASSIGN_OR_RETURN(next->components, BuildSameComponents(welcome));
+    next->components = sea::OverTerrain(std::move(next->components), terrain);
     next->snapshots = std::make_shared<SnapshotCache>(next->components);
   }
+  Install(std::move(next));
+  return absl::OkStatus();
+}
+
+void LocalSea::SetTerrain(std::shared_ptr<const sea::Terrain> terrain) {
+  ONESEA_CHECK(terrain != nullptr);
+  absl::MutexLock one_at_a_time(&change_mutex_);
+  terrain_ = std::move(terrain);
+  terrain_hash_ = sea::TerrainHash(*terrain_);
+  const std::shared_ptr<const Version> current = version();
+  if (current->missing_terrain == 0 || current->missing_terrain != terrain_hash_) return;
+  auto next = std::make_shared<Version>(*current);
+  next->components = sea::OverTerrain(std::move(next->components), terrain_);
+  next->snapshots = std::make_shared<SnapshotCache>(next->components);
+  next->missing_terrain = 0;
+  Install(std::move(next));
+}
+
+void LocalSea::Install(std::shared_ptr<const Version> next) {
   absl::MutexLock lock(&mutex_);
   version_ = std::move(next);
-  return absl::OkStatus();
+}
+
+std::uint64_t LocalSea::missing_terrain() const { return version()->missing_terrain; }
+
+std::shared_ptr<const sea::Terrain> LocalSea::terrain() const {
+  return TerrainOf(*version()->components);
+}
+
+double LocalSea::WaterLevelAt(SimTime time) const {
+  return wire::WaterLevelAt(version()->water_level, time);
 }
 
 std::shared_ptr<const LocalSea::Version> LocalSea::version() const {
@@ -68,7 +113,21 @@ std::shared_ptr<const sea::SeaSnapshot> LocalSea::SnapshotAt(SimTime time,
 
 void LocalSea::Sample(std::span<const Vec2d> places, SimTime time, sea::QueryDetail detail,
                       std::span<sea::SurfaceSample> out) const {
-  SnapshotAt(time, detail)->Sample(places, out);
+  const std::shared_ptr<const Version> version = this->version();
+  version->snapshots->At(time, detail)->Sample(places, out);
+  AddLevel(wire::WaterLevelAt(version->water_level, time), out);
+}
+
+void LocalSea::SampleAtDepth(std::span<const Vec2d> places, std::span<const double> depth_m,
+                             SimTime time, std::span<sea::DepthSample> out) const {
+  const std::shared_ptr<const Version> version = this->version();
+  // Waves fade from the level on.
+  const double level_m = wire::WaterLevelAt(version->water_level, time);
+  std::vector<double> below_m(depth_m.begin(), depth_m.end());
+  for (double& depth : below_m) depth = std::max(0.0, depth + level_m);
+  const auto snapshot = version->snapshots->At(time, sea::QueryDetail::kHeight);
+  sea::SampleAtDepth(*version->components, time, places, below_m, out,
+                     snapshot->attenuation().get());
 }
 
 double LocalSea::HeightAt(Vec2d place, SimTime time) const {
@@ -88,8 +147,9 @@ double LocalSea::HeightNear(Vec2d place, SimTime time) const {
     version->snapshots->At(at, sea::QueryDetail::kHeight)->Sample({&place, 1}, {&sample, 1});
     return static_cast<double>(sample.height_m);
   };
-  if (share == 0.0) return height(before);
-  return (1.0 - share) * height(before) + share * height(before + kLatticeStep);
+  const double level_m = wire::WaterLevelAt(version->water_level, time);
+  if (share == 0.0) return level_m + height(before);
+  return level_m + (1.0 - share) * height(before) + share * height(before + kLatticeStep);
 }
 
 absl::StatusOr<double> LocalSea::CompareProbes(const wire::ProbeHeights& probes) {
@@ -100,6 +160,9 @@ absl::StatusOr<double> LocalSea::CompareProbes(const wire::ProbeHeights& probes)
         absl::StrFormat("probes.height_m has %d values, the session has %d probes",
                         probes.height_m.size(), places.size()));
   }
+  if (version->missing_terrain != 0) {
+    return absl::FailedPreconditionError("the session's terrain has not come yet");
+  }
   const int tick_rate_hz = version->components->recipe.tick_rate_hz;
   if (!IsTickInRange(probes.tick, tick_rate_hz)) {
     return absl::InvalidArgumentError(
@@ -109,6 +172,7 @@ absl::StatusOr<double> LocalSea::CompareProbes(const wire::ProbeHeights& probes)
   const SimTime time = TimeOfTick(probes.tick, tick_rate_hz);
   std::vector<sea::SurfaceSample> samples(places.size());
   version->snapshots->At(time, sea::QueryDetail::kHeight)->Sample(places, samples);
+  AddLevel(wire::WaterLevelAt(version->water_level, time), samples);
   double worst_m = 0.0;
   for (std::size_t n = 0; n < places.size(); ++n) {
     const double error_m = std::abs(samples[n].height_m - double{probes.height_m[n]});

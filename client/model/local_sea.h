@@ -25,7 +25,11 @@ struct Drift {
 };
 
 /// The session's sea, synthesised in this process from a Welcome. Heights are answered with no
-/// round trip.
+/// round trip. They contain what everybody can know: the waves, lowered over the session's terrain,
+/// and the water level; not the wakes, which are LocalWorld's.
+///
+/// A session with terrain begins incomplete: until SetTerrain() brings it, heights are those of the
+/// open sea, and missing_terrain() says so.
 ///
 /// Thread-safe: the network thread follows the session, render and game threads ask. An answer
 /// belongs to one weather timeline as a whole: Follow() swaps it between two calls, never within
@@ -49,6 +53,17 @@ class LocalSea {
   /// calling thread and without holding up queries.
   absl::Status Follow(const wire::Welcome& welcome);
 
+  /// Hash of the terrain that the session has and this sea does not; 0: nothing is missing.
+  std::uint64_t missing_terrain() const;
+  /// From here on the sea over this terrain, if it is the missing one; else it is kept for a later
+  /// welcome that names it. Cost: some 0.1 s in the calling thread; queries go on meanwhile.
+  void SetTerrain(std::shared_ptr<const sea::Terrain> terrain);
+  /// Of components(); null: none, or not yet.
+  std::shared_ptr<const sea::Terrain> terrain() const;
+  /// Mean level of the whole sea [m] at any time; heights contain it, snapshots and components
+  /// don't.
+  double WaterLevelAt(SimTime time) const;
+
   /// Height of the top sheet [m] above `place` at exactly `time`. The first call at a new time
   /// synthesises a snapshot.
   double HeightAt(Vec2d place, SimTime time) const;
@@ -63,16 +78,24 @@ class LocalSea {
   void Sample(std::span<const Vec2d> places, SimTime time, sea::QueryDetail detail,
               std::span<sea::SurfaceSample> out) const;
 
-  /// The sea at one moment, to ask many times; stays valid and unchanged when the weather changes.
+  /// out[n] answers places[n], depth_m[n] >= 0 below z = 0: the exact sum over all waves, about 15 µs
+  /// a place. Where Sample()'s height is lower than that there is no water, and the answer means
+  /// nothing.
+  void SampleAtDepth(std::span<const Vec2d> places, std::span<const double> depth_m, SimTime time,
+                     std::span<sea::DepthSample> out) const;
+
+  /// The waves at one moment, to ask many times, above WaterLevelAt() of it; stays valid and
+  /// unchanged when the weather changes.
   std::shared_ptr<const sea::SeaSnapshot> SnapshotAt(SimTime time, sea::QueryDetail detail) const;
 
   /// Compares with heights that the server computed; answers the worst difference [m] and remembers
-  /// it. InvalidArgument if the number of heights isn't that of the session's probes.
+  /// it. InvalidArgument if the number of heights isn't that of the session's probes;
+  /// FailedPrecondition while the terrain is missing, when there is nothing to compare.
   absl::StatusOr<double> CompareProbes(const wire::ProbeHeights& probes);
   Drift drift() const;
 
-  /// For renderers: what Synthesiser and FoamWindow are made from. Immutable; ask again to see new
-  /// weather.
+  /// For renderers: what Synthesiser, FoamWindow and MovingAttenuation are made from. Immutable; ask
+  /// again to see new weather or terrain.
   std::shared_ptr<const sea::Components> components() const;
   /// As the last Welcome had it; its tick is of that time.
   SessionInfo session() const;
@@ -87,11 +110,17 @@ class LocalSea {
     std::shared_ptr<const sea::Components> components;
     std::shared_ptr<SnapshotCache> snapshots;
     SessionInfo session;
+    std::vector<wire::WaterLevel> water_level;
+    std::uint64_t missing_terrain = 0;
   };
 
   LocalSea() = default;
   std::shared_ptr<const Version> version() const;
+  void Install(std::shared_ptr<const Version> next);
 
+  absl::Mutex change_mutex_ ABSL_ACQUIRED_BEFORE(mutex_);  // one new version at a time
+  std::shared_ptr<const sea::Terrain> terrain_ ABSL_GUARDED_BY(change_mutex_);  // the last one
+  std::uint64_t terrain_hash_ ABSL_GUARDED_BY(change_mutex_) = 0;
   mutable absl::Mutex mutex_;
   std::shared_ptr<const Version> version_ ABSL_GUARDED_BY(mutex_);
   Drift drift_ ABSL_GUARDED_BY(mutex_);

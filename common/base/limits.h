@@ -39,7 +39,9 @@ inline constexpr int kTickRateMaxHz = 1000;
 // Terrain.
 inline constexpr double kTerrainCellMinM = 0.01;
 inline constexpr double kTerrainCellMaxM = 10'000.0;
-inline constexpr int kTerrainSideMax = 4096;  // samples; 64 MB at most
+inline constexpr int kTerrainSideMax = 4096;                     // samples; 64 MB at most
+inline constexpr std::size_t kTerrainBytesMax = 72 << 20;        // encoded; noise doesn't pack
+inline constexpr std::size_t kTerrainPieceBytesMax = 512 << 10;  // of one message
 
 // Interaction layer.
 inline constexpr int kRegionSideMin = 64;    // cells; room for two absorbing borders

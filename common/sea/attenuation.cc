@@ -41,8 +41,30 @@ double AttenuationGrid::At(Vec2d place, int plane) const {
   return south + y.fraction * (north - south);
 }
 
-Attenuation::Attenuation(std::shared_ptr<const Components> components, const Terrain& terrain)
-    : components_(std::move(components)), shoaling_(*components_) {
+void AttenuationGrid::AllAt(Vec2d place, float* out, std::size_t stride) const {
+  const GridPlace x = LocateOnGrid((place.x - west_m) / cell_m, columns);
+  const GridPlace y = LocateOnGrid((place.y - south_m) / cell_m, rows);
+  const float* at = &factor[(static_cast<std::size_t>(y.cell) * columns + x.cell) * planes];
+  const float* up = at + static_cast<std::size_t>(columns) * planes;
+  for (int p = 0; p < planes; ++p) {
+    const double south = at[p] + x.fraction * (double{at[planes + p]} - at[p]);
+    const double north = up[p] + x.fraction * (double{up[planes + p]} - up[p]);
+    out[p * stride] = static_cast<float>(south + y.fraction * (north - south));
+  }
+}
+
+Attenuation::Attenuation(const Components& components, std::shared_ptr<const Terrain> terrain)
+    : terrain_(std::move(terrain)),
+      entries_(components.recipe.timeline.size()),
+      shoaling_(components) {
+  SetDepths();
+  arriving_.resize(depth_m_.size() * kDirections);
+  for (int direction = 0; direction < kDirections; ++direction) CarryAlong(direction);
+  SetShares(components);
+}
+
+void Attenuation::SetDepths() {
+  const Terrain& terrain = *terrain_;
   const int side = std::max(terrain.columns, terrain.rows);
   const int stride = (side - 1 + kSideMax - 1) / kSideMax;
   shape_.west_m = terrain.west_m;
@@ -64,9 +86,6 @@ Attenuation::Attenuation(std::shared_ptr<const Components> components, const Ter
       depth_m_.push_back(static_cast<float>(-sum_m / (stride * stride)));
     }
   }
-  arriving_.resize(depth_m_.size() * kDirections);
-  for (int direction = 0; direction < kDirections; ++direction) CarryAlong(direction);
-  SetShares();
 }
 
 // Every cell takes what its upstream neighbours have, line by line across the main axis of travel.
@@ -102,20 +121,19 @@ void Attenuation::CarryAlong(int direction) {
   }
 }
 
-void Attenuation::SetShares() {
-  const std::size_t entries = components_->recipe.timeline.size();
-  direction_m2_.assign(shape_.planes * entries * kDirections, 0.0);
+void Attenuation::SetShares(const Components& components) {
+  direction_m2_.assign(shape_.planes * entries_ * kDirections, 0.0);
   for (int plane = 0; plane < shape_.planes; ++plane) {
-    for (std::size_t m = 0; m < entries; ++m) {
-      double* sums_m2 = &direction_m2_[(plane * entries + m) * kDirections];
-      if (plane < static_cast<int>(components_->cascades.size())) {
-        const CascadeComponents& waves = components_->cascades[plane];
+    for (std::size_t m = 0; m < entries_; ++m) {
+      double* sums_m2 = &direction_m2_[(plane * entries_ + m) * kDirections];
+      if (plane < static_cast<int>(components.cascades.size())) {
+        const CascadeComponents& waves = components.cascades[plane];
         for (std::size_t n = 0; n < waves.i.size(); ++n) {
           AddDirection(waves.kx_rad_per_m[n], waves.ky_rad_per_m[n], waves.variance_m2[m][n],
                        sums_m2);
         }
       } else {
-        for (const RegularComponent& wave : components_->regular) {
+        for (const RegularComponent& wave : components.regular) {
           AddDirection(wave.kx_rad_per_m, wave.ky_rad_per_m, wave.variance_m2[m], sums_m2);
         }
       }
@@ -124,15 +142,14 @@ void Attenuation::SetShares() {
 }
 
 AttenuationGrid Attenuation::At(std::span<const double> weights) const {
-  const std::size_t entries = components_->recipe.timeline.size();
   const DepthFactors depth_factors = shoaling_.At(weights);
   AttenuationGrid grid = shape_;
   grid.factor.resize(depth_m_.size() * grid.planes);
   for (int plane = 0; plane < grid.planes; ++plane) {
     double share[kDirections] = {}, whole_m2 = 0.0;
-    for (std::size_t m = 0; m < entries; ++m) {
+    for (std::size_t m = 0; m < entries_; ++m) {
       for (int t = 0; t < kDirections; ++t) {
-        share[t] += weights[m] * direction_m2_[(plane * entries + m) * kDirections + t];
+        share[t] += weights[m] * direction_m2_[(plane * entries_ + m) * kDirections + t];
       }
     }
     for (const double m2 : share) whole_m2 += m2;
@@ -145,7 +162,29 @@ AttenuationGrid Attenuation::At(std::span<const double> weights) const {
           depth_factors.At(plane, depth_m_[cell]) * std::sqrt(std::max(0.0, arriving)));
     }
   }
+  for (const float f : grid.factor) grid.largest = std::max(grid.largest, f);
   return grid;
+}
+
+std::shared_ptr<const Components> OverTerrain(std::shared_ptr<const Components> components,
+                                              std::shared_ptr<const Terrain> terrain) {
+  if (terrain == nullptr) return components;
+  auto over = std::make_shared<Components>(*components);
+  over->attenuation = std::make_shared<const Attenuation>(*components, std::move(terrain));
+  return over;
+}
+
+const std::shared_ptr<const AttenuationGrid>& MovingAttenuation::At(SimTime time) {
+  if (components_->attenuation == nullptr) return grid_;
+  std::int64_t second = time.flicks / kFlicksPerSecond;
+  if (time.flicks % kFlicksPerSecond < 0) --second;
+  weights_.resize(components_->recipe.timeline.size());
+  WeatherWeights(components_->recipe, SimTime{second * kFlicksPerSecond}, weights_);
+  if (grid_ == nullptr || weights_ != weights_of_grid_) {
+    grid_ = std::make_shared<const AttenuationGrid>(components_->attenuation->At(weights_));
+    weights_of_grid_ = weights_;
+  }
+  return grid_;
 }
 
 }  // namespace onesea::sea

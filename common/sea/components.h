@@ -46,6 +46,8 @@ struct RegularComponent {
   std::vector<double> variance_m2;  ///< (weather entries), a²/2 where the entry lists this wave
 };
 
+class Attenuation;
+
 struct Components {
   Recipe recipe;
   std::vector<CascadeComponents> cascades;
@@ -53,6 +55,8 @@ struct Components {
   std::uint64_t hash = 0;                ///< over all of the above, every entry of the timeline
   std::vector<double> unresolved_mss;    ///< (weather entries) ∫ k²S above the last band
   std::vector<double> lost_variance_m2;  ///< (weather entries) ∫S outside all bands
+  /// How the terrain lowers these waves, see OverTerrain() in attenuation.h; null: the open sea.
+  std::shared_ptr<const Attenuation> attenuation;
 };
 
 /// InvalidArgument as ValidateRecipe(), or for a sea above kSeaHsMaxM. Cost: about 20 ms per wave

@@ -36,6 +36,7 @@ struct DepthPoint {
   std::uint32_t u_turns, v_turns;  // local coordinates in 2⁻³² tile length
   float below_m;                   // below z = 0
   float water_depth_m;             // 0: infinite
+  float factor;                    // of the cascade there
 };
 
 struct DepthSums {
@@ -80,6 +81,7 @@ void SumAtDepth(const DepthWaves& waves, const DepthPoint& point, DepthSums& sum
   const V two = hn::Set(d, 2.0f), one = hn::Set(d, 1.0f);
   const V gravity = hn::Set(d, static_cast<float>(kGravity));
   const V tension = hn::Set(d, static_cast<float>(kSurfaceTensionOverDensity));
+  const V factor = hn::Set(d, point.factor);
   const bool finite = point.water_depth_m > 0.0f;
   for (std::size_t lane = 0; lane < kPartialSums; lane += lanes) {
     V vx = hn::Load(d, sums.velocity_x + lane), vy = hn::Load(d, sums.velocity_y + lane);
@@ -93,7 +95,7 @@ void SumAtDepth(const DepthWaves& waves, const DepthPoint& point, DepthSums& sum
       const V kx = hn::Load(d, waves.kx.get() + n), ky = hn::Load(d, waves.ky.get() + n);
       const V k = hn::Sqrt(hn::Add(hn::Mul(kx, kx), hn::Mul(ky, ky)));
       const V sigma = hn::Load(d, waves.sigma.get() + n);
-      const V amplitude = hn::Load(d, waves.amplitude_m.get() + n);
+      const V amplitude = hn::Mul(factor, hn::Load(d, waves.amplitude_m.get() + n));
       const V down = ExpOfMinus(hn::Mul(k, below));
       V level = down, rise = down;  // cosh k(z+h) / cosh kh and sinh k(z+h) / cosh kh
       V over_tanh = sigma;          // σ coth kh
@@ -125,12 +127,15 @@ void SumAtDepth(const DepthWaves& waves, const DepthPoint& point, DepthSums& sum
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
+#include <array>
 #include <cmath>
 #include <span>
 #include <vector>
 
 #include "common/base/check.h"
+#include "common/base/limits.h"
 #include "common/base/real_math.h"
+#include "common/sea/attenuation.h"
 #include "common/sea/point_query.h"
 #include "common/sea/wave_frame.h"
 
@@ -197,7 +202,8 @@ double Total(const float (&partial)[kPartialSums]) {
 }  // namespace
 
 void SampleAtDepth(const Components& components, SimTime time, std::span<const Vec2d> points,
-                   std::span<const double> depth_m, std::span<DepthSample> out) {
+                   std::span<const double> depth_m, std::span<DepthSample> out,
+                   const AttenuationGrid* attenuation) {
   ONESEA_CHECK(points.size() == depth_m.size() && points.size() == out.size())
       << points.size() << " points, " << depth_m.size() << " depths, " << out.size() << " answers";
   const Recipe& recipe = components.recipe;
@@ -218,18 +224,22 @@ void SampleAtDepth(const Components& components, SimTime time, std::span<const V
     // Nothing moves below the bottom but what moves at it.
     const double below_m = recipe.depth_m > 0.0 ? std::min(depth_m[p], recipe.depth_m) : depth_m[p];
     DepthSample sample;
+    std::array<float, kCascadesMax + 1> factors;
+    factors.fill(1.0f);
+    if (attenuation != nullptr) attenuation->AllAt(points[p], factors.data());
     alignas(64) DepthSums sums = {};
     for (std::size_t c = 0; c < waves.size(); ++c) {
       const Vec2d at = frames[c].TileFraction(points[p]);
       const DepthPoint point = {ToTurns(at.x), ToTurns(at.y), static_cast<float>(below_m),
-                                static_cast<float>(recipe.depth_m)};
+                                static_cast<float>(recipe.depth_m), factors[c]};
       HWY_DYNAMIC_DISPATCH(SumAtDepth)(waves[c], point, sums);
     }
     sample.velocity_m_per_s = {Total(sums.velocity_x) + recipe.current_m_per_s.x,
                                Total(sums.velocity_y) + recipe.current_m_per_s.y,
                                Total(sums.velocity_z)};
     sample.dynamic_pressure_pa = kWaterDensityKgPerM3 * kGravity * Total(sums.head_m);
-    for (const RegularAt& wave : regular) {
+    for (RegularAt wave : regular) {
+      wave.amplitude_m *= double{factors[waves.size()]};
       AddRegular(wave, points[p], below_m, recipe.depth_m, sample);
     }
     out[p] = sample;

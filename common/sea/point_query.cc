@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include "common/base/check.h"
@@ -117,6 +118,9 @@ SeaSnapshot::SeaSnapshot(std::unique_ptr<const Impl> impl) : impl_(std::move(imp
 SeaSnapshot::~SeaSnapshot() = default;
 SimTime SeaSnapshot::time() const { return impl_->time; }
 QueryDetail SeaSnapshot::detail() const { return impl_->detail; }
+const std::shared_ptr<const AttenuationGrid>& SeaSnapshot::attenuation() const {
+  return impl_->grids.attenuation;
+}
 double SeaSnapshot::HeightErrorBound() const { return impl_->height_error_bound_m; }
 
 // A block's heights and displacements.
@@ -175,7 +179,43 @@ struct SnapshotBuilder::Impl {
   std::vector<double> weights;
   std::vector<EntryVariances> variances;  // per weather entry
   std::vector<RegularAt> regular;
+  std::optional<MovingAttenuation> attenuation;
+
+  // Regular waves, and how far off answers may be.
+  void SetBounds(SeaSnapshot::Impl& snapshot);
 };
+
+void SnapshotBuilder::Impl::SetBounds(SeaSnapshot::Impl& snapshot) {
+  WeatherWeights(components->recipe, snapshot.time, weights);
+  EntryVariances now;
+  for (std::size_t m = 0; m < weights.size(); ++m) {
+    now.interpolation_m2 += weights[m] * variances[m].interpolation_m2;
+    now.curvature_per_m2 += weights[m] * variances[m].curvature_per_m2;
+  }
+  const double lambda = components->recipe.choppiness;
+  snapshot.height_error_bound_m =
+      kBoundSigmas * std::sqrt(now.interpolation_m2 * (1.0 + lambda * lambda)) + kInversionErrorM;
+  for (const QueryCascade& cascade : snapshot.grids.cascades) {
+    snapshot.height_error_bound_m += (0.5 + std::numbers::sqrt2 / 2.0) * cascade.waves.unit;
+  }
+  double curvature_per_m = kCurvatureSigmas * std::sqrt(now.curvature_per_m2);
+  RegularWavesAt(*components, snapshot.time, weights, regular);
+  for (const RegularAt& wave : regular) {
+    if (!(wave.amplitude_m > 0.0)) continue;
+    snapshot.grids.regular.push_back(MakeRegular(wave, components->recipe));
+    curvature_per_m +=
+        lambda * wave.amplitude_m *
+        (wave.kx_rad_per_m * wave.kx_rad_per_m + wave.ky_rad_per_m * wave.ky_rad_per_m);
+  }
+  // Shoaling makes waves higher, and with them every error of theirs.
+  if (snapshot.grids.attenuation != nullptr) {
+    const double largest = snapshot.grids.attenuation->largest;
+    curvature_per_m *= largest;
+    snapshot.height_error_bound_m =
+        kInversionErrorM + largest * (snapshot.height_error_bound_m - kInversionErrorM);
+  }
+  snapshot.grids.curvature_per_m = static_cast<float>(curvature_per_m);
+}
 
 SnapshotBuilder::SnapshotBuilder(std::shared_ptr<const Components> components,
                                  TransformKind transform)
@@ -185,6 +225,7 @@ SnapshotBuilder::SnapshotBuilder(std::shared_ptr<const Components> components,
   for (std::size_t m = 0; m < impl_->weights.size(); ++m) {
     impl_->variances.push_back(VariancesOf(*components, m));
   }
+  impl_->attenuation.emplace(components);
   impl_->components = std::move(components);
   impl_->transform = transform;
 }
@@ -229,6 +270,7 @@ std::shared_ptr<const SeaSnapshot> SnapshotBuilder::At(
   snapshot->components = impl_->components;
   snapshot->grids.detail = detail;
   snapshot->grids.current_m_per_s = components.recipe.current_m_per_s;
+  snapshot->grids.attenuation = impl_->attenuation->At(time);
   for (std::size_t c = 0; c < components.cascades.size(); ++c) {
     CascadeFields& planes = stages[c].planes;
     stages[c].synthesiser.Evaluate(time, planes);
@@ -249,28 +291,7 @@ std::shared_ptr<const SeaSnapshot> SnapshotBuilder::At(
     }
     snapshot->grids.cascades.push_back(grid);
   }
-  WeatherWeights(components.recipe, time, impl_->weights);
-  EntryVariances now;
-  for (std::size_t m = 0; m < impl_->weights.size(); ++m) {
-    now.interpolation_m2 += impl_->weights[m] * impl_->variances[m].interpolation_m2;
-    now.curvature_per_m2 += impl_->weights[m] * impl_->variances[m].curvature_per_m2;
-  }
-  const double lambda = components.recipe.choppiness;
-  snapshot->height_error_bound_m =
-      kBoundSigmas * std::sqrt(now.interpolation_m2 * (1.0 + lambda * lambda)) + kInversionErrorM;
-  for (const QueryCascade& cascade : snapshot->grids.cascades) {
-    snapshot->height_error_bound_m += (0.5 + std::numbers::sqrt2 / 2.0) * cascade.waves.unit;
-  }
-  double curvature_per_m = kCurvatureSigmas * std::sqrt(now.curvature_per_m2);
-  RegularWavesAt(components, time, impl_->weights, impl_->regular);
-  for (const RegularAt& wave : impl_->regular) {
-    if (!(wave.amplitude_m > 0.0)) continue;
-    snapshot->grids.regular.push_back(MakeRegular(wave, components.recipe));
-    curvature_per_m +=
-        lambda * wave.amplitude_m *
-        (wave.kx_rad_per_m * wave.kx_rad_per_m + wave.ky_rad_per_m * wave.ky_rad_per_m);
-  }
-  snapshot->grids.curvature_per_m = static_cast<float>(curvature_per_m);
+  impl_->SetBounds(*snapshot);
   return std::make_shared<const SeaSnapshot>(std::move(snapshot));
 }
 

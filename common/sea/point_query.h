@@ -13,9 +13,13 @@
 /// Point queries: the sea at a place and any time, choppy displacement inverted.
 namespace onesea::sea {
 
+struct AttenuationGrid;
+
 /// Layers that an answer contains. Bit set, sent on the wire.
 inline constexpr std::uint32_t kLayerSpectral = 1;
 inline constexpr std::uint32_t kLayerInteraction = 2;  ///< wakes and splashes
+inline constexpr std::uint32_t kLayerTerrain = 4;      ///< the spectral sea lowered over terrain
+inline constexpr std::uint32_t kLayerWaterLevel = 8;   ///< a mean level that is not 0
 
 enum class QueryDetail : std::uint8_t {
   kHeight = 1,   ///< height, displacement, residual, folded
@@ -50,6 +54,8 @@ class SeaSnapshot {
 
   SimTime time() const;
   QueryDetail detail() const;
+  /// How the terrain lowers each cascade; in every answer. Null: the open sea.
+  const std::shared_ptr<const AttenuationGrid>& attenuation() const;
 
   /// out[n] answers points[n]. Coordinates within ±1e9 m only (CHECK). Vectorised over points;
   /// allocates nothing.
@@ -74,7 +80,8 @@ class SeaSnapshot {
   std::unique_ptr<const Impl> impl_;
 };
 
-/// Makes snapshots at any time by synthesis on the recipe's query grids. Not thread-safe.
+/// Makes snapshots at any time by synthesis on the recipe's query grids; over terrain if the
+/// components are. Not thread-safe.
 class SnapshotBuilder {
  public:
   explicit SnapshotBuilder(std::shared_ptr<const Components> components,
@@ -95,12 +102,14 @@ class SnapshotBuilder {
 std::vector<double> BandWavenumbers(const Components& components, SimTime time);
 
 /// Below the surface: the direct sum over every component, exact; about 15 µs a point. `depth_m` >=
-/// 0 below z = 0.
+/// 0 below z = 0. `attenuation`: of a snapshot of that time; each cascade fades with depth as over
+/// the recipe's flat bottom.
 void SampleAtDepth(const Components& components, SimTime time, std::span<const Vec2d> points,
-                   std::span<const double> depth_m, std::span<DepthSample> out);
+                   std::span<const double> depth_m, std::span<DepthSample> out,
+                   const AttenuationGrid* attenuation = nullptr);
 
-/// The direct sum in double over every component at undisplaced points: the oracle of the two
-/// above. Slow.
+/// The direct sum in double over every component at undisplaced points in the open sea: the oracle
+/// of the two above. Slow.
 struct DirectSample {
   double height_m = 0, displacement_x_m = 0, displacement_y_m = 0;
   double slope_x = 0, slope_y = 0, jacobian_xx = 0, jacobian_yy = 0, jacobian_xy = 0;

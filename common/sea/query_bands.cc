@@ -19,8 +19,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 // What one cascade's records say at the points, into block.sum[0..2].
 HWY_INLINE void ReadCascade(const QueryCascade& cascade, const QueryRecords& records,
-                            CascadeBlock& at, Block& block) {
-  StoreWeights(records.unit, block.padded, at);
+                            const float* factors, CascadeBlock& at, Block& block) {
+  StoreWeights(records.unit, factors, block.padded, at);
   for (std::size_t n = 0; n < block.count; ++n) {
     Row value, none;
     AddSpline<false>(cascade, records, at, n, value, none, none);
@@ -36,7 +36,7 @@ HWY_INLINE void ReadRegular(const QueryGrids& grids, Block& block) {
     for (std::size_t r = 0; r < grids.regular.size(); ++r) {
       const QueryRegular& wave = grids.regular[r];
       V sine, cosine;
-      RegularPhase(wave, block.turns[r], block, n, sine, cosine);
+      RegularPhase(grids, r, block, n, sine, cosine);
       sums[0] = hn::Add(sums[0], hn::Mul(FactorOf(wave, Field::kHeight), cosine));
       sums[1] = hn::Add(sums[1], hn::Mul(FactorOf(wave, Field::kVelocityX), cosine));
       sums[2] = hn::Add(sums[2], hn::Mul(FactorOf(wave, Field::kVelocityY), cosine));
@@ -57,9 +57,9 @@ void BandBlockTarget(const QueryGrids& grids, std::span<const Vec2d> points,
   for (std::size_t c = 0; c < grids.cascades.size(); ++c) {
     const QueryCascade& cascade = grids.cascades[c];
     PlaceInCells(cascade, block, block.cascades[c]);
-    ReadCascade(cascade, cascade.waves, block.cascades[c], block);
+    ReadCascade(cascade, cascade.waves, FactorsOf(block, c), block.cascades[c], block);
     put(c, 0, block.sum[2]);
-    ReadCascade(cascade, cascade.velocities, block.cascades[c], block);
+    ReadCascade(cascade, cascade.velocities, FactorsOf(block, c), block.cascades[c], block);
     for (std::size_t axis = 0; axis < 3; ++axis) put(c, 1 + axis, block.sum[axis]);
   }
   if (grids.regular.empty()) return;

@@ -49,6 +49,8 @@ struct alignas(64) Block {
   float value[4 * kB], along_x[4 * kB], along_y[4 * kB];  // records summed over cascades
   float sum[9][kB];
   float velocity[3][kB];
+  float factor[kCascadesMax + 1][kB];  // of each cascade, then of the regular waves; if attenuated
+  bool attenuated = false;
   std::size_t count = 0;   // of points
   std::size_t padded = 0;  // the same in whole vectors; the lanes beyond hold any point
 };
@@ -79,6 +81,12 @@ HWY_INLINE void LoadPoints(const QueryGrids& grids, std::span<const Vec2d> point
     for (std::size_t n = 0; n < block.padded; n += hn::Lanes(d)) {
       cells.Place(hn::Load(d, x + n), hn::Load(d, y + n), to.frac_u + n, to.cell_u + n,
                   to.frac_v + n, to.cell_v + n);
+    }
+  }
+  block.attenuated = grids.attenuation != nullptr;
+  if (block.attenuated) {
+    for (std::size_t n = 0; n < block.padded; ++n) {
+      grids.attenuation->AllAt({x[n], y[n]}, &block.factor[0][n], kB);
     }
   }
   for (std::size_t r = 0; r < grids.regular.size(); ++r) {
@@ -124,20 +132,36 @@ HWY_INLINE void PlaceInCells(const QueryCascade& cascade, const Block& block, Ca
   }
 }
 
+// The factors of a cascade, or of the regular waves behind the last one; null in the open sea.
+HWY_INLINE const float* FactorsOf(const Block& block, std::size_t plane) {
+  return block.attenuated ? block.factor[plane] : nullptr;
+}
+
+// `value` times the factors of the points from n on.
+HWY_INLINE V Attenuate(V value, const float* factors, std::size_t n) {
+  if (factors == nullptr) return value;
+  return hn::Mul(value, hn::Load(D(), factors + n));
+}
+
 HWY_INLINE void AddTo(float* sum, V value) {
   hn::Store(hn::Add(hn::Load(D(), sum), value), D(), sum);
 }
 
-// sin and cos of a regular wave's phase at x - d.
-HWY_INLINE void RegularPhase(const QueryRegular& wave, const std::uint32_t* turns,
-                             const Block& block, std::size_t n, V& sine, V& cosine) {
+// sin and cos of a regular wave's phase at x - d, attenuated.
+HWY_INLINE void RegularPhase(const QueryGrids& grids, std::size_t r, const Block& block,
+                             std::size_t n, V& sine, V& cosine) {
+  const QueryRegular& wave = grids.regular[r];
   const D d;
   const DI di;
   const V shift = hn::Add(hn::Mul(hn::Set(d, wave.kx_turns_per_m), hn::Load(d, block.d_x + n)),
                           hn::Mul(hn::Set(d, wave.ky_turns_per_m), hn::Load(d, block.d_y + n)));
   const V rest = hn::Sub(shift, hn::Round(shift));
   const VI fraction = hn::ShiftLeft<1>(hn::ConvertTo(di, hn::Mul(rest, hn::Set(d, 0x1p31f))));
-  SinCosTurns(d, hn::Sub(hn::Load(DU(), turns + n), hn::BitCast(DU(), fraction)), sine, cosine);
+  const VU turns = hn::Load(DU(), block.turns[r] + n);
+  SinCosTurns(d, hn::Sub(turns, hn::BitCast(DU(), fraction)), sine, cosine);
+  const float* factors = FactorsOf(block, grids.cascades.size());
+  sine = Attenuate(sine, factors, n);
+  cosine = Attenuate(cosine, factors, n);
 }
 
 HWY_INLINE V FactorOf(const QueryRegular& wave, Field field) {
@@ -152,7 +176,7 @@ HWY_INLINE void AddRegular(const QueryGrids& grids, Block& block) {
     const QueryRegular& wave = grids.regular[r];
     for (std::size_t n = 0; n < block.padded; n += hn::Lanes(d)) {
       V sine, cosine;
-      RegularPhase(wave, block.turns[r], block, n, sine, cosine);
+      RegularPhase(grids, r, block, n, sine, cosine);
       AddTo(block.sum[kDx] + n, hn::Neg(hn::Mul(FactorOf(wave, Field::kDisplacementX), sine)));
       AddTo(block.sum[kDy] + n, hn::Neg(hn::Mul(FactorOf(wave, Field::kDisplacementY), sine)));
       if constexpr (kGradient) {

@@ -72,6 +72,9 @@ HWY_INLINE void CopyPoint(const QueryGrids& grids, const Block& from, std::size_
     target.cell_v[at] = source.cell_v[n];
   }
   for (std::size_t r = 0; r < grids.regular.size(); ++r) to.turns[r][at] = from.turns[r][n];
+  if (from.attenuated) {
+    for (std::size_t p = 0; p <= grids.cascades.size(); ++p) to.factor[p][at] = from.factor[p][n];
+  }
   to.d_x[at] = from.d_x[n];
   to.d_y[at] = from.d_y[n];
   to.stretch[at] = from.stretch[n];
@@ -88,6 +91,7 @@ HWY_INLINE void SolveRest(const QueryGrids& grids, Block& block) {
   if (count == 0) return;
   Block rest;
   SetCount(count, rest);
+  rest.attenuated = block.attenuated;
   for (std::size_t at = 0; at < rest.padded; ++at) {
     CopyPoint(grids, block, which[HWY_MIN(at, count - 1)], rest, at);
   }

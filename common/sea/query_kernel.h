@@ -1,11 +1,14 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "common/base/limits.h"
 #include "common/base/vec.h"
+#include "common/sea/attenuation.h"
 #include "common/sea/point_query.h"
 #include "common/sea/query_records.h"
 #include "common/sea/surface.h"
@@ -39,6 +42,7 @@ struct QueryGrids {
   std::vector<QueryRegular> regular;
   Vec2d current_m_per_s;
   float curvature_per_m = 0.0f;  ///< rarely exceeded second derivative of the displacement
+  std::shared_ptr<const AttenuationGrid> attenuation;  ///< over terrain; null: the open sea
 };
 
 /// Points in flight at once.
@@ -51,8 +55,13 @@ struct QueryPoint {
   double j_xx = 1, j_xy = 0, j_yx = 0, j_yy = 1;  ///< I + gradient of the displacement
 };
 
+/// By how much each cascade is multiplied, then the regular waves together; all 1 in the open sea.
+using PlaneFactors = std::array<float, kCascadesMax + 1>;
+PlaneFactors FactorsAt(const QueryGrids& grids, Vec2d place);
+
 /// One point in double: for the few points that the vectorised path hands over. The same spline.
-QueryPoint EvaluateQueryPoint(const QueryGrids& grids, Vec2d undisplaced);
+QueryPoint EvaluateQueryPoint(const QueryGrids& grids, const PlaneFactors& factors,
+                              Vec2d undisplaced);
 
 /// Answers up to kQueryBlock points; `suspicious[n]` is set where the fixed iteration may have
 /// missed the top sheet: the residual is large, the iteration did not contract, or the surface is

@@ -75,12 +75,15 @@ HWY_INLINE void Prefetch(const QueryGrids& grids, const Block& block, std::size_
   }
 }
 
-// Weights of columns carry the unit of the records and that of the pairs.
-HWY_INLINE void StoreWeights(float unit, std::size_t count, CascadeBlock& to) {
+// Weights of columns carry the unit of the records, that of the pairs and what the terrain leaves of
+// the cascade.
+HWY_INLINE void StoreWeights(float unit, const float* factors, std::size_t count,
+                             CascadeBlock& to) {
   const D d;
-  const V scale = hn::Set(d, unit / kPairOne);
+  const V whole = hn::Set(d, unit / kPairOne);
   const VI one = hn::Set(DI(), static_cast<std::int32_t>(kPairOne));
   for (std::size_t n = 0; n < count; n += hn::Lanes(d)) {
+    const V scale = Attenuate(whole, factors, n);
     const Weights u = WeighSpline(hn::Load(d, to.wu + n));
     hn::StoreInterleaved4(hn::Mul(scale, u.w0), hn::Mul(scale, u.w1), hn::Mul(scale, u.w2),
                           hn::Mul(scale, u.w3), d, to.weight_u + 4 * n);
@@ -114,7 +117,8 @@ HWY_INLINE void ReadSpline(const QueryGrids& grids, Block& block) {
   const std::size_t cascades = grids.cascades.size();
   for (std::size_t c = 0; c < cascades; ++c) {
     PlaceInCells(grids.cascades[c], block, block.cascades[c]);
-    StoreWeights(grids.cascades[c].waves.unit, block.padded, block.cascades[c]);
+    StoreWeights(grids.cascades[c].waves.unit, FactorsOf(block, c), block.padded,
+                 block.cascades[c]);
   }
   for (std::size_t n = 0; n < block.count; ++n) {
     if (n + kAhead < block.count) Prefetch(grids, block, n + kAhead);
@@ -137,7 +141,8 @@ HWY_INLINE void ReadSpline(const QueryGrids& grids, Block& block) {
 HWY_INLINE void ReadVelocity(const QueryGrids& grids, Block& block) {
   const D d;
   for (std::size_t c = 0; c < grids.cascades.size(); ++c) {
-    StoreWeights(grids.cascades[c].velocities.unit, block.padded, block.cascades[c]);
+    StoreWeights(grids.cascades[c].velocities.unit, FactorsOf(block, c), block.padded,
+                 block.cascades[c]);
   }
   for (std::size_t n = 0; n < block.count; ++n) {
     Row value, none;
@@ -152,7 +157,7 @@ HWY_INLINE void ReadVelocity(const QueryGrids& grids, Block& block) {
     const QueryRegular& wave = grids.regular[r];
     for (std::size_t n = 0; n < block.padded; n += hn::Lanes(d)) {
       V sine, cosine;
-      RegularPhase(wave, block.turns[r], block, n, sine, cosine);
+      RegularPhase(grids, r, block, n, sine, cosine);
       AddTo(block.velocity[0] + n, hn::Mul(FactorOf(wave, Field::kVelocityX), cosine));
       AddTo(block.velocity[1] + n, hn::Mul(FactorOf(wave, Field::kVelocityY), cosine));
       AddTo(block.velocity[2] + n, hn::Neg(hn::Mul(FactorOf(wave, Field::kVelocityZ), sine)));

@@ -70,7 +70,7 @@ HWY_INLINE void InterpolateDisplacement(const QueryGrids& grids, std::size_t cas
       hn::LoadInterleaved4(DU(), at.corners + 4 * n, left_x, left_y, right_x, right_y);
       const V wu = hn::Load(d, at.wu + n);
       const VI wv = CornerWeights(hn::Load(d, at.wv + n));
-      const V unit = hn::Set(d, cascade.waves.unit);
+      const V unit = Attenuate(hn::Set(d, cascade.waves.unit), FactorsOf(block, c), n);
       const Bilinear dx = Interpolate(left_x, right_x, wu, wv);
       const Bilinear dy = Interpolate(left_y, right_y, wu, wv);
       sum_x = hn::Add(sum_x, hn::Mul(unit, dx.value));

@@ -31,7 +31,7 @@ const std::array<Vec2d, kSpokes>& Spokes() {
   return spokes;
 }
 
-void AddCascade(const QueryCascade& cascade, Vec2d p, QueryPoint& sum) {
+void AddCascade(const QueryCascade& cascade, double factor, Vec2d p, QueryPoint& sum) {
   const double u = cascade.cells_per_m * (cascade.cosine * p.x + cascade.sine * p.y);
   const double v = cascade.cells_per_m * (cascade.cosine * p.y - cascade.sine * p.x);
   const double whole_u = std::floor(u), whole_v = std::floor(v);
@@ -57,7 +57,7 @@ void AddCascade(const QueryCascade& cascade, Vec2d p, QueryPoint& sum) {
       along_v[f] += at_v.slope[b] * row_value[f];
     }
   }
-  const double unit = cascade.waves.unit, cells = unit * cascade.cells_per_m;
+  const double unit = factor * double{cascade.waves.unit}, cells = unit * cascade.cells_per_m;
   const double c = cascade.cosine * cells, s = cascade.sine * cells;
   sum.dx_m += unit * value[0];
   sum.dy_m += unit * value[1];
@@ -70,9 +70,11 @@ void AddCascade(const QueryCascade& cascade, Vec2d p, QueryPoint& sum) {
   sum.height_y += s * along_u[2] + c * along_v[2];
 }
 
-void AddRegular(const QueryRegular& regular, Vec2d p, QueryPoint& sum) {
+void AddRegular(const QueryRegular& regular, double share, Vec2d p, QueryPoint& sum) {
   const real::SinCosPair wave = real::SinCos(2.0 * kPi * regular.wave.TurnsAt(p));
-  const auto factor = [&](Field field) { return double{regular.factors[static_cast<int>(field)]}; };
+  const auto factor = [&](Field field) {
+    return share * double{regular.factors[static_cast<int>(field)]};
+  };
   sum.height_m += factor(Field::kHeight) * wave.cos;
   sum.height_x -= factor(Field::kSlopeX) * wave.sin;
   sum.height_y -= factor(Field::kSlopeY) * wave.sin;
@@ -101,10 +103,11 @@ struct Trial {
 
 class Search {
  public:
-  Search(const QueryGrids& grids, Vec2d point) : grids_(grids), point_(point) {}
+  Search(const QueryGrids& grids, Vec2d point)
+      : grids_(grids), point_(point), factors_(FactorsAt(grids, point)) {}
 
   Trial Try(Vec2d p) const {
-    const QueryPoint at = EvaluateQueryPoint(grids_, p);
+    const QueryPoint at = EvaluateQueryPoint(grids_, factors_, p);
     return {p, at, {p.x + at.dx_m - point_.x, p.y + at.dy_m - point_.y}};
   }
 
@@ -135,6 +138,7 @@ class Search {
  private:
   const QueryGrids& grids_;
   Vec2d point_;
+  PlaneFactors factors_;
 };
 
 // Sheets found so far; the highest answers.
@@ -228,10 +232,23 @@ void SearchRings(const Search& search, const Trial& centre, double first_radius_
 
 }  // namespace
 
-QueryPoint EvaluateQueryPoint(const QueryGrids& grids, Vec2d undisplaced) {
+PlaneFactors FactorsAt(const QueryGrids& grids, Vec2d place) {
+  PlaneFactors factors;
+  factors.fill(1.0f);
+  if (grids.attenuation != nullptr) grids.attenuation->AllAt(place, factors.data());
+  return factors;
+}
+
+QueryPoint EvaluateQueryPoint(const QueryGrids& grids, const PlaneFactors& factors,
+                              Vec2d undisplaced) {
   QueryPoint sum;
-  for (const QueryCascade& cascade : grids.cascades) AddCascade(cascade, undisplaced, sum);
-  for (const QueryRegular& regular : grids.regular) AddRegular(regular, undisplaced, sum);
+  const std::size_t cascades = grids.cascades.size();
+  for (std::size_t c = 0; c < cascades; ++c) {
+    AddCascade(grids.cascades[c], double{factors[c]}, undisplaced, sum);
+  }
+  for (const QueryRegular& regular : grids.regular) {
+    AddRegular(regular, double{factors[cascades]}, undisplaced, sum);
+  }
   return sum;
 }
 

@@ -20,6 +20,10 @@ struct Terrain {
 
   /// Bilinear; outside, the value of the nearest edge. Pre: valid.
   double ElevationAt(Vec2d place) const;
+  /// Does water of this height above the mean leave the place uncovered?
+  bool IsDry(Vec2d place, double water_height_m) const {
+    return ElevationAt(place) >= water_height_m;
+  }
 };
 
 /// OK, or InvalidArgument naming field, value and limit.

@@ -43,6 +43,17 @@ absl::StatusOr<ProbeHeights> ReadProbes(const v1::ProbeHeights& proto) {
   return ProbeHeights{proto.tick(), {proto.height_m().begin(), proto.height_m().end()}};
 }
 
+void SetWelcome(const Welcome& welcome, v1::Welcome* out) {
+  ToProto(welcome.recipe, out->mutable_recipe());
+  out->set_component_hash(welcome.component_hash);
+  ToProto(welcome.session, out->mutable_session());
+  for (const WaterLevel& level : welcome.water_level) {
+    v1::WaterLevel* to = out->add_water_level();
+    to->set_time_s(level.time_s);
+    to->set_level_m(level.level_m);
+  }
+}
+
 absl::StatusOr<Welcome> ReadWelcome(const v1::Welcome& proto) {
   Welcome welcome;
   ONESEA_ASSIGN_OR_RETURN(welcome.recipe, FromProto(proto.recipe()));
@@ -51,6 +62,10 @@ absl::StatusOr<Welcome> ReadWelcome(const v1::Welcome& proto) {
   if (welcome.session.tick_rate_hz != welcome.recipe.tick_rate_hz) {
     return absl::InvalidArgumentError("welcome.session.tick_rate_hz: differs from the recipe's");
   }
+  for (const v1::WaterLevel& level : proto.water_level()) {
+    welcome.water_level.push_back({level.time_s(), level.level_m()});
+  }
+  ONESEA_RETURN_IF_ERROR(ValidateWaterLevel("welcome.", welcome.water_level));
   return welcome;
 }
 
@@ -66,11 +81,7 @@ std::string EncodeFrame(const Frame& frame) {
     proto.mutable_probes()->mutable_height_m()->Assign(frame.probes->height_m.begin(),
                                                        frame.probes->height_m.end());
   }
-  if (frame.welcome) {
-    ToProto(frame.welcome->recipe, proto.mutable_welcome()->mutable_recipe());
-    proto.mutable_welcome()->set_component_hash(frame.welcome->component_hash);
-    ToProto(frame.welcome->session, proto.mutable_welcome()->mutable_session());
-  }
+  if (frame.welcome) SetWelcome(*frame.welcome, proto.mutable_welcome());
   if (frame.farewell) proto.mutable_farewell()->set_reason(*frame.farewell);
   if (frame.world) ToProto(*frame.world, proto.mutable_world());
   return proto.SerializeAsString();

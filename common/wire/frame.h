@@ -30,6 +30,7 @@ struct Welcome {
   sea::Recipe recipe;
   std::uint64_t component_hash = 0;
   SessionInfo session;
+  std::vector<WaterLevel> water_level;  ///< see WaterLevelAt()
 };
 
 struct Frame {

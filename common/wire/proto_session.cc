@@ -136,6 +136,7 @@ void ToProto(const SessionInfo& info, v1::SessionInfo* out) {
   out->set_sea_name(info.sea_name);
   SetProbes(info.probes_m, out);
   out->set_transform(info.transform);
+  out->set_terrain_hash(info.terrain_hash);
 }
 
 absl::StatusOr<SessionInfo> FromProto(const v1::SessionInfo& proto) {
@@ -186,6 +187,7 @@ absl::StatusOr<SessionInfo> FromProto(const v1::SessionInfo& proto) {
         CheckReal("session.", "probes.y_m", probe.y, -kQueryCoordinateMaxM, kQueryCoordinateMaxM));
   }
   info.transform = Printable(proto.transform(), kSessionNameLengthMax);
+  info.terrain_hash = proto.terrain_hash();
   return info;
 }
 

@@ -33,7 +33,7 @@ struct QueryAnswer {
   std::vector<float> normal;            ///< (n x 3)
   std::vector<float> velocity_m_per_s;  ///< (n x 3)
   std::vector<std::int32_t> folded_indices;
-  std::vector<std::int32_t> dry_indices;      ///< points above the surface: zeros in the two below
+  std::vector<std::int32_t> dry_indices;  ///< on land, or above the surface: zeros in the two below
   std::vector<float> depth_velocity_m_per_s;  ///< (n x 3)
   std::vector<float> dynamic_pressure_pa;     ///< (n)
   absl::Status status;                        ///< streams and steps: why there is no answer

@@ -53,6 +53,7 @@ struct SessionInfo {
   std::string sea_name;
   std::vector<Vec2d> probes_m;
   std::string transform;
+  std::uint64_t terrain_hash = 0;  ///< sea::TerrainHash(); 0: no terrain
 };
 
 }  // namespace onesea

@@ -1,5 +1,7 @@
 #include "common/wire/world_spec.h"
 
+#include <algorithm>
+
 #include "absl/strings/str_cat.h"
 #include "common/base/check.h"
 #include "common/wire/bounds.h"
@@ -12,20 +14,6 @@ absl::Status CheckSide(const std::string& prefix, const char* field, int cells) 
   if (cells % kRegionSideStep == 0) return absl::OkStatus();
   return absl::InvalidArgumentError(
       absl::StrCat(prefix, field, ": ", cells, " is not a multiple of ", kRegionSideStep));
-}
-
-absl::Status CheckTide(const std::string& prefix, const std::vector<WaterLevel>& levels) {
-  ONESEA_RETURN_IF_ERROR(CheckSize(prefix, "water_level", levels.size(), kWaterLevelsMax));
-  double after_s = -kQueryTimeMaxS;
-  for (std::size_t n = 0; n < levels.size(); ++n) {
-    const std::string entry = absl::StrCat(prefix, "water_level[", n, "].");
-    // Each above the one before; the first also at the start itself.
-    ONESEA_RETURN_IF_ERROR(CheckReal(entry, "time_s", levels[n].time_s, after_s, kQueryTimeMaxS));
-    ONESEA_RETURN_IF_ERROR(
-        CheckReal(entry, "level_m", levels[n].level_m, -kWaterLevelMaxM, kWaterLevelMaxM));
-    after_s = levels[n].time_s + 1e-3;
-  }
-  return absl::OkStatus();
 }
 
 }  // namespace
@@ -57,6 +45,32 @@ absl::Status ValidateRegionSpec(const std::string& prefix, const RegionSpec& reg
   return CheckInteger(prefix, "frames_per_update", region.frames_per_update, 1, 60);
 }
 
+absl::Status ValidateWaterLevel(const std::string& prefix, std::span<const WaterLevel> levels) {
+  ONESEA_RETURN_IF_ERROR(CheckSize(prefix, "water_level", levels.size(), kWaterLevelsMax));
+  double after_s = -kQueryTimeMaxS;
+  for (std::size_t n = 0; n < levels.size(); ++n) {
+    const std::string entry = absl::StrCat(prefix, "water_level[", n, "].");
+    // Each above the one before; the first also at the start itself.
+    ONESEA_RETURN_IF_ERROR(CheckReal(entry, "time_s", levels[n].time_s, after_s, kQueryTimeMaxS));
+    ONESEA_RETURN_IF_ERROR(
+        CheckReal(entry, "level_m", levels[n].level_m, -kWaterLevelMaxM, kWaterLevelMaxM));
+    after_s = levels[n].time_s + 1e-3;
+  }
+  return absl::OkStatus();
+}
+
+double WaterLevelAt(std::span<const WaterLevel> levels, SimTime time) {
+  if (levels.empty()) return 0.0;
+  const double t = time.Seconds();
+  const auto after = std::find_if(levels.begin(), levels.end(),
+                                  [t](const WaterLevel& entry) { return entry.time_s > t; });
+  if (after == levels.begin()) return after->level_m;
+  const auto before = after - 1;
+  if (after == levels.end()) return before->level_m;
+  const double share = (t - before->time_s) / (after->time_s - before->time_s);
+  return before->level_m + share * (after->level_m - before->level_m);
+}
+
 absl::Status ValidateWorldSpec(const std::string& prefix, const WorldSpec& world) {
   ONESEA_RETURN_IF_ERROR(CheckSize(prefix, "regions", world.regions.size(), kRegionsMax));
   ONESEA_RETURN_IF_ERROR(CheckSize(prefix, "bodies", world.bodies.size(), kBodiesMax));
@@ -79,7 +93,7 @@ absl::Status ValidateWorldSpec(const std::string& prefix, const WorldSpec& world
     ONESEA_RETURN_IF_ERROR(CheckReal(prefix, "body_wind.speed_m_per_s",
                                      Norm(*world.body_wind_m_per_s), 0.0, kWindSpeedMaxMPerS));
   }
-  return CheckTide(prefix, world.water_level);
+  return ValidateWaterLevel(prefix, world.water_level);
 }
 
 }  // namespace onesea::wire

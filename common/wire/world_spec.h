@@ -2,11 +2,13 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "absl/status/status.h"
 #include "common/base/quaternion.h"
+#include "common/base/sim_time.h"
 #include "common/base/vec.h"
 #include "common/wire/body_description.h"
 
@@ -62,6 +64,11 @@ struct WorldSpec {
 /// InvalidArgument naming field, value and limit, each field after `prefix`.
 absl::Status ValidateKinematics(const std::string& prefix, const Kinematics& kinematics);
 absl::Status ValidateRegionSpec(const std::string& prefix, const RegionSpec& region);
+absl::Status ValidateWaterLevel(const std::string& prefix, std::span<const WaterLevel> levels);
 absl::Status ValidateWorldSpec(const std::string& prefix, const WorldSpec& world);
+
+/// Of the whole sea above the mean [m]: linear between entries, constant outside, 0 without any. The
+/// same bits on every machine. Pre: ValidateWaterLevel() is OK.
+double WaterLevelAt(std::span<const WaterLevel> levels, SimTime time);
 
 }  // namespace onesea::wire

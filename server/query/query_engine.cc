@@ -7,6 +7,7 @@
 #include "absl/strings/str_cat.h"
 #include "common/base/check.h"
 #include "common/base/limits.h"
+#include "common/sea/attenuation.h"
 #include "common/wire/bounds.h"
 
 namespace onesea::server {
@@ -109,25 +110,39 @@ void AddInteraction(const sea::InteractionSnapshot& interaction, const QueryRequ
   }
 }
 
-void SampleDepth(const sea::Components& components, SimTime time, const QueryRequest& request,
-                 QueryAnswer& answer) {
+// Points that no water covers, and those that were asked for above it.
+void FindDry(const sea::Terrain* terrain, const QueryRequest& request, QueryAnswer& answer) {
+  if (terrain == nullptr && request.depth_m.empty()) return;
+  for (std::size_t n = 0; n < request.points_m.size(); ++n) {
+    const double height_m = double{answer.height_m[n]};
+    const bool land = terrain != nullptr && terrain->IsDry(request.points_m[n], height_m);
+    const bool above = !request.depth_m.empty() && -request.depth_m[n] > height_m;
+    if (land || above) answer.dry_indices.push_back(static_cast<std::int32_t>(n));
+  }
+}
+
+void SampleDepth(const sea::Components& components, const sea::SeaSnapshot& snapshot,
+                 double level_m, const QueryRequest& request, QueryAnswer& answer) {
   const std::size_t count = request.depth_m.size();
   answer.depth_velocity_m_per_s.resize(3 * count);
   answer.dynamic_pressure_pa.resize(count);
   std::vector<std::size_t> wet;
   std::vector<Vec2d> points;
   std::vector<double> depths;
+  auto dry = answer.dry_indices.begin();
   for (std::size_t n = 0; n < count; ++n) {
-    if (-request.depth_m[n] > static_cast<double>(answer.height_m[n])) {
-      answer.dry_indices.push_back(static_cast<std::int32_t>(n));
+    if (dry != answer.dry_indices.end() && *dry == static_cast<std::int32_t>(n)) {
+      ++dry;
       continue;
     }
     wet.push_back(n);
     points.push_back(request.points_m[n]);
-    depths.push_back(request.depth_m[n]);
+    // Waves fade from the level on.
+    depths.push_back(std::max(0.0, request.depth_m[n] + level_m));
   }
   std::vector<sea::DepthSample> samples(wet.size());
-  sea::SampleAtDepth(components, time, points, depths, samples);
+  sea::SampleAtDepth(components, snapshot.time(), points, depths, samples,
+                     snapshot.attenuation().get());
   for (std::size_t m = 0; m < wet.size(); ++m) {
     const std::size_t n = wet[m];
     answer.depth_velocity_m_per_s[3 * n] = static_cast<float>(samples[m].velocity_m_per_s.x);
@@ -158,7 +173,7 @@ absl::Status ValidateQuery(const QueryRequest& request, const sea::Recipe& recip
 
 absl::StatusOr<QueryAnswer> QueryEngine::Answer(
     const std::shared_ptr<const sea::Components>& components, Tick now, const QueryRequest& request,
-    const sea::InteractionSnapshot* interaction) {
+    const QueryWorld& world) {
   ONESEA_RETURN_IF_ERROR(ValidateQuery(request, components->recipe));
   const SimTime time = TimeOf(request, now, components->recipe.tick_rate_hz);
   const std::shared_ptr<const sea::SeaSnapshot> snapshot =
@@ -169,11 +184,22 @@ absl::StatusOr<QueryAnswer> QueryEngine::Answer(
   answer.layers = sea::kLayerSpectral;
   answer.height_error_bound_m = snapshot->HeightErrorBound();
   SampleSurface(*snapshot, request, answer);
-  if (interaction != nullptr && !interaction->fields.empty() &&
-      time == TimeOfTick(now, components->recipe.tick_rate_hz)) {
-    AddInteraction(*interaction, request, answer);
+  const double level_m = wire::WaterLevelAt(world.water_level, time);
+  if (level_m != 0.0) {
+    answer.layers |= sea::kLayerWaterLevel;
+    for (float& height_m : answer.height_m) height_m += static_cast<float>(level_m);
   }
-  if (!request.depth_m.empty()) SampleDepth(*components, time, request, answer);
+  if (world.interaction != nullptr && !world.interaction->fields.empty() &&
+      time == TimeOfTick(now, components->recipe.tick_rate_hz)) {
+    AddInteraction(*world.interaction, request, answer);
+  }
+  const sea::Terrain* terrain = nullptr;
+  if (components->attenuation != nullptr) {
+    answer.layers |= sea::kLayerTerrain;
+    terrain = &components->attenuation->terrain();
+  }
+  FindDry(terrain, request, answer);
+  if (!request.depth_m.empty()) SampleDepth(*components, *snapshot, level_m, request, answer);
   return answer;
 }
 

@@ -3,10 +3,12 @@
 #include <atomic>
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "absl/status/statusor.h"
 #include "common/sea/interaction_field.h"
 #include "common/wire/query.h"
+#include "common/wire/world_spec.h"
 #include "server/query/snapshot_cache.h"
 
 /// Answers point queries of one session from shared immutable snapshots.
@@ -15,18 +17,26 @@ namespace onesea::server {
 /// OK, or InvalidArgument with field, index, value and limit: coordinates, time, depths.
 absl::Status ValidateQuery(const wire::QueryRequest& request, const sea::Recipe& recipe);
 
+/// What a session's water has beside the spectral sea.
+struct QueryWorld {
+  /// The layer at tick `now`, or null: added to answers for that very tick, 20 ns a point and
+  /// region. Depth answers are without it.
+  const sea::InteractionSnapshot* interaction = nullptr;
+  std::span<const wire::WaterLevel> water_level{};
+};
+
 class QueryEngine {
  public:
   explicit QueryEngine(sea::TransformKind transform = sea::TransformKind::kOwn)
       : snapshots_(transform) {}
 
   /// Thread-safe. `now` is the tick that a request without a time means. Depth answers are direct
-  /// sums, about 15 µs a point; points above the surface are listed as dry and get zeros.
-  /// `interaction` is the layer at tick `now`, or null: it is added to answers for that very tick,
-  /// 20 ns a point and region, and `layers` says so. Depth answers are of the spectral sea alone.
+  /// sums, about 15 µs a point. Points on land that no water covers, and those asked for above the
+  /// surface, are listed as dry and get no depth answer. `world` adds to the spectral sea;
+  /// `layers` says what did.
   absl::StatusOr<wire::QueryAnswer> Answer(const std::shared_ptr<const sea::Components>& components,
                                            Tick now, const wire::QueryRequest& request,
-                                           const sea::InteractionSnapshot* interaction = nullptr);
+                                           const QueryWorld& world = {});
 
   /// Thread-safe. Notes that the present tick `now` was asked for; guesses when it will be next:
   /// as many ticks later as this was after the last time. Nothing if the tick was noted already or

@@ -94,6 +94,8 @@ class OneSeaService final : public OneSeaMethods {
   grpc::ServerUnaryReactor* GetMesh(grpc::CallbackServerContext* context,
                                     const v1::GetMeshRequest* request,
                                     v1::GetMeshResponse* response) override;
+  grpc::ServerWriteReactor<v1::GetTerrainResponse>* GetTerrain(
+      grpc::CallbackServerContext* context, const v1::GetTerrainRequest* request) override;
 
  private:
   Registry& registry_;

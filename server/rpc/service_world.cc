@@ -2,12 +2,14 @@
 
 #include <utility>
 
+#include "absl/strings/str_cat.h"
 #include "common/base/check.h"
 #include "common/wire/proto_body.h"
 #include "common/wire/proto_world.h"
 #include "server/rpc/answer.h"
 #include "server/rpc/service.h"
 #include "server/rpc/status_map.h"
+#include "server/rpc/terrain_writer.h"
 
 namespace onesea::server {
 namespace {
@@ -169,6 +171,17 @@ grpc::ServerUnaryReactor* OneSeaService::GetMesh(grpc::CallbackServerContext* co
   }
   response->set_file(*mesh);
   return Answer(context, absl::OkStatus());
+}
+
+grpc::ServerWriteReactor<v1::GetTerrainResponse>* OneSeaService::GetTerrain(
+    grpc::CallbackServerContext* /*context*/, const v1::GetTerrainRequest* request) {
+  const absl::StatusOr<std::shared_ptr<SessionLoop>> session = registry_.Find(request->session());
+  if (!session.ok()) return new TerrainWriter(session.status());
+  if ((*session)->terrain() == nullptr) {
+    return new TerrainWriter(
+        absl::NotFoundError(absl::StrCat("session: '", (*session)->name(), "' has no terrain")));
+  }
+  return new TerrainWriter((*session)->terrain());
 }
 
 }  // namespace onesea::server

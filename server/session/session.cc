@@ -29,6 +29,7 @@ Session::Session(SessionSpec spec, std::shared_ptr<const sea::Components> compon
   if (world_ == nullptr) {
     world_ = std::make_unique<world::World>(OptionsFor(spec_, sea::TransformKind::kOwn));
   }
+  if (world_->terrain() != nullptr) terrain_hash_ = sea::TerrainHash(*world_->terrain());
 }
 
 absl::StatusOr<std::unique_ptr<world::World>> MakeWorld(const SessionSpec& spec,
@@ -69,6 +70,7 @@ std::uint64_t Session::StateHash() const {
     hash.Add(entry.start_tick);
     hash.Add(entry.span_ticks);
   }
+  if (terrain_hash_ != 0) hash.Add(terrain_hash_);
   if (!world_->view()->empty()) hash.Add(world_->Hash());
   return hash.value();
 }

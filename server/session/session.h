@@ -35,17 +35,21 @@ class Session {
   }  ///< as created; the recipe in force is components()->recipe
   const std::shared_ptr<const sea::Components>& components() const { return components_; }
 
+  /// sea::TerrainHash(); 0: no terrain.
+  std::uint64_t terrain_hash() const { return terrain_hash_; }
+
   world::World& world() { return *world_; }
   const world::World& world() const { return *world_; }
 
-  /// Over the tick, the component hash, the timeline's ticks and, if there is anything in it, the
-  /// world.
+  /// Over the tick, the component hash, the timeline's ticks, the terrain and, if there is anything
+  /// in it, the world.
   std::uint64_t StateHash() const;
 
  private:
   SessionSpec spec_;
   std::shared_ptr<const sea::Components> components_;
   std::unique_ptr<world::World> world_;
+  std::uint64_t terrain_hash_ = 0;
   Tick tick_ = 0;
 };
 

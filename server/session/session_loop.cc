@@ -7,6 +7,7 @@
 #include "absl/time/time.h"
 #include "common/base/check.h"
 #include "common/base/limits.h"
+#include "common/sea/attenuation.h"
 #include "common/wire/bounds.h"
 #include "common/wire/recipe_codec.h"
 
@@ -20,6 +21,11 @@ constexpr std::int64_t kWaitMinNs = 500'000;
 constexpr double kWeatherLeadS = 0.5;
 constexpr int kWeatherAttempts = 4;
 
+std::shared_ptr<const wire::EncodedTerrain> EncodedTerrainOf(const world::World* world) {
+  if (world == nullptr || world->terrain() == nullptr) return nullptr;
+  return std::make_shared<const wire::EncodedTerrain>(wire::PackTerrain(*world->terrain()));
+}
+
 void RunAll(SessionRunner::Deferred& deferred) {
   for (const std::function<void()>& call : deferred) call();
 }
@@ -32,6 +38,8 @@ SessionLoop::SessionLoop(SessionSpec spec, std::shared_ptr<const sea::Components
     : name_(spec.name),
       tick_rate_hz_(spec.recipe.tick_rate_hz),
       clock_(clock),
+      terrain_(EncodedTerrainOf(world.get())),
+      water_level_(spec.world.water_level),
       runner_(std::move(spec), std::move(components), transform, clock.MonotonicNs(),
               std::move(world)) {
   {
@@ -110,11 +118,13 @@ absl::StatusOr<WeatherSpan> SessionLoop::ChangeWeather(const WeatherRequest& req
   absl::Status status;
   for (int attempt = 0; attempt < kWeatherAttempts; ++attempt) {
     sea::Recipe recipe;
+    std::shared_ptr<const sea::Terrain> terrain;
     Tick start_tick = 0;
     {
       absl::MutexLock lock(&mutex_);
       ONESEA_RETURN_IF_ERROR(OpenStatus());
       recipe = runner_.session().components()->recipe;
+      terrain = runner_.session().world().terrain();
       // A slow build may overtake the default start: try again with more lead.
       start_tick = request.start_tick.value_or(DefaultStartTick());
       if (!request.start_tick) start_tick += (start_tick - runner_.session().tick() - 1) * attempt;
@@ -133,6 +143,7 @@ absl::StatusOr<WeatherSpan> SessionLoop::ChangeWeather(const WeatherRequest& req
     ONESEA_RETURN_IF_ERROR(sea::ValidateRecipe(recipe));
     ONESEA_RETURN_IF_ERROR(wire::CheckRecipeBytes(recipe));
     ONESEA_ASSIGN_OR_RETURN(auto components, sea::BuildComponents(recipe));
+    components = sea::OverTerrain(std::move(components), terrain);
     absl::MutexLock lock(&mutex_);
     ONESEA_RETURN_IF_ERROR(OpenStatus());
     status = runner_.ChangeWeather(std::move(components), clock_.MonotonicNs());

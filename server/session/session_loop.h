@@ -7,12 +7,14 @@
 #include <string>
 #include <string_view>
 #include <thread>
+#include <vector>
 
 #include "absl/base/thread_annotations.h"
 #include "absl/status/statusor.h"
 #include "absl/synchronization/mutex.h"
 #include "common/base/clock.h"
 #include "common/sea/surface.h"
+#include "common/wire/terrain_pieces.h"
 #include "server/session/lock_step.h"
 #include "server/session/session_observer.h"
 #include "server/session/session_runner.h"
@@ -57,6 +59,10 @@ class SessionLoop {
 
   const std::string& name() const { return name_; }
   int tick_rate_hz() const { return tick_rate_hz_; }
+
+  /// For those who join; null: none.
+  const std::shared_ptr<const wire::EncodedTerrain>& terrain() const { return terrain_; }
+  const std::vector<wire::WaterLevel>& water_level() const { return water_level_; }
 
   SessionInfo Info() const;
   /// Never waits for the work of a tick.
@@ -118,6 +124,8 @@ class SessionLoop {
   const std::string name_;
   const int tick_rate_hz_;
   const Clock& clock_;
+  const std::shared_ptr<const wire::EncodedTerrain> terrain_;
+  const std::vector<wire::WaterLevel> water_level_;
   absl::Mutex weather_mutex_ ABSL_ACQUIRED_BEFORE(mutex_);  // one change of weather at a time
   mutable absl::Mutex mutex_ ABSL_ACQUIRED_BEFORE(view_mutex_);
   absl::CondVar changed_;

@@ -166,8 +166,10 @@ void SessionRunner::SampleProbes() {
                                        std::exchange(probe_snapshot_, nullptr));
   probe_snapshot_->Sample(session_.spec().probes_m, probe_samples_);
   probes_.tick = session_.tick();
+  const auto level_m =
+      static_cast<float>(wire::WaterLevelAt(session_.spec().world.water_level, session_.time()));
   for (std::size_t n = 0; n < probe_samples_.size(); ++n) {
-    probes_.height_m[n] = probe_samples_[n].height_m;
+    probes_.height_m[n] = probe_samples_[n].height_m + level_m;
   }
 }
 
@@ -275,6 +277,7 @@ std::shared_ptr<const wire::Welcome> SessionRunner::MakeWelcome() const {
   welcome->recipe = session_.components()->recipe;
   welcome->component_hash = session_.components()->hash;
   welcome->session = Info();
+  welcome->water_level = session_.spec().world.water_level;
   return welcome;
 }
 
@@ -297,6 +300,7 @@ SessionInfo SessionRunner::Info() const {
   info.sea_name = components.recipe.timeline.back().sea.name;
   info.probes_m = spec.probes_m;
   info.transform = sea::TransformName(transform_);
+  info.terrain_hash = session_.terrain_hash();
   return info;
 }
 

@@ -147,17 +147,7 @@ Air World::AirAt(const sea::Recipe& recipe, SimTime time) const {
   return air;
 }
 
-double World::LevelAt(SimTime time) const {
-  if (levels_.empty()) return 0.0;
-  const double t = time.Seconds();
-  const auto after = std::find_if(levels_.begin(), levels_.end(),
-                                  [t](const wire::WaterLevel& entry) { return entry.time_s > t; });
-  if (after == levels_.begin()) return after->level_m;
-  const auto before = after - 1;
-  if (after == levels_.end()) return before->level_m;
-  const double share = (t - before->time_s) / (after->time_s - before->time_s);
-  return before->level_m + share * (after->level_m - before->level_m);
-}
+double World::LevelAt(SimTime time) const { return wire::WaterLevelAt(levels_, time); }
 
 void World::PressBodies() {
   pressed_.clear();

@@ -81,6 +81,8 @@ class World {
 
   /// The hull's file of a body, by its hash; null: none.
   std::shared_ptr<const std::string> FindMesh(std::uint64_t hash) const;
+  /// Null: none.
+  const std::shared_ptr<const sea::Terrain>& terrain() const { return options_.terrain; }
   bool HasBody(std::uint32_t id) const { return bodies_.contains(id); }
   /// As of the last change or step.
   const std::shared_ptr<const WorldView>& view() const { return view_; }

@@ -56,7 +56,8 @@ TEST(Harbour, KeepsTheSwellOut) {
   const auto components = sea::BuildComponents(recipe);
   ASSERT_TRUE(components.ok());
   const sea::AttenuationGrid grid =
-      sea::Attenuation(*components, Harbour()).At(std::vector<double>{1.0});
+      sea::Attenuation(**components, std::make_shared<const sea::Terrain>(Harbour()))
+          .At(std::vector<double>{1.0});
   const auto hs_m = [&](double x, double y) {
     double m0 = 0.0;
     for (std::size_t c = 0; c < (*components)->cascades.size(); ++c) {

@@ -98,6 +98,10 @@ Terrain Sea(int side, double depth_m) {
   return terrain;
 }
 
+std::shared_ptr<const Terrain> Shared(Terrain terrain) {
+  return std::make_shared<const Terrain>(std::move(terrain));
+}
+
 int SwellPlane(const Components& components) {
   int best = 0;
   double most = 0.0;
@@ -114,7 +118,7 @@ int SwellPlane(const Components& components) {
 
 TEST(Attenuation, OpenWaterHasTheDepthsFactorEverywhere) {
   const auto components = BuildComponents(Swell(1.0, 8.0, 30.0)).value();
-  const AttenuationGrid grid = Attenuation(components, Sea(201, 30.0)).At(kWhole);
+  const AttenuationGrid grid = Attenuation(*components, Shared(Sea(201, 30.0))).At(kWhole);
   for (const float factor : grid.factor) ASSERT_NEAR(factor, 1.0, 2e-3);
   EXPECT_NEAR(grid.At({1e6, -1e6}, 0), 1.0, 2e-3);  // the nearest edge's
 }
@@ -133,7 +137,7 @@ TEST(Attenuation, WallsThrowShadows) {
         terrain.elevation_m[along_x ? n * 201 + m : m * 201 + n] = 3.0f;
       }
     }
-    const AttenuationGrid grid = Attenuation(components, terrain).At(kWhole);
+    const AttenuationGrid grid = Attenuation(*components, Shared(terrain)).At(kWhole);
     const auto at = [&](double forward, double aside) {
       return grid.At({forward * std::cos(to_rad) - aside * std::sin(to_rad),
                       forward * std::sin(to_rad) + aside * std::cos(to_rad)},
@@ -151,7 +155,7 @@ TEST(Attenuation, WallsThrowShadows) {
 
 TEST(Attenuation, LargeTerrainIsLookedAtCoarsely) {
   const auto components = BuildComponents(Swell(1.0, 8.0, 30.0)).value();
-  const AttenuationGrid grid = Attenuation(components, Sea(1100, 30.0)).At(kWhole);
+  const AttenuationGrid grid = Attenuation(*components, Shared(Sea(1100, 30.0))).At(kWhole);
   EXPECT_LE(grid.columns, Attenuation::kSideMax);
   EXPECT_EQ(grid.cell_m, 30.0);
   EXPECT_GE(grid.cell_m * grid.columns, 10.0 * 1090);
@@ -168,7 +172,7 @@ TEST(Attenuation, WeatherMixesVariances) {
   const int plane = SwellPlane(*components);
   Terrain terrain = Sea(201, 30.0);
   for (int n = 0; n < 201; ++n) terrain.elevation_m[n * 201 + 100] = 3.0f;
-  const Attenuation attenuation(components, terrain);
+  const Attenuation attenuation(*components, Shared(terrain));
   const auto east = [&](double w) {
     return attenuation.At(std::vector<double>{1 - w, w}).At({500, 0}, plane);
   };
@@ -187,7 +191,7 @@ TEST(Attenuation, HasTheSameBitsEverywhere) {
     }
   }
   Hash64 hash;
-  for (const float f : Attenuation(components, terrain).At(kWhole).factor) hash.Add(f);
+  for (const float f : Attenuation(*components, Shared(terrain)).At(kWhole).factor) hash.Add(f);
   EXPECT_EQ(hash.value(), 0xfda99fad22f8bbd2ULL);
 }
 

@@ -28,7 +28,10 @@ Frame FullFrame(const sea::SeaState& sea) {
   frame.keyframe = true;
   frame.stamp = Stamp{.tick = 7, .server_monotonic_ns = 123456789, .speed = 2.0};
   frame.probes = ProbeHeights{7, {0.1f, -0.2f}};
-  frame.welcome = Welcome{RecipeOf(sea), 99, {}};
+  frame.welcome.emplace();
+  frame.welcome->recipe = RecipeOf(sea);
+  frame.welcome->component_hash = 99;
+  frame.welcome->water_level = {{-60.0, 0.5}, {3600.0, -1.25}};
   frame.welcome->session.name = "storm";
   frame.welcome->session.latitude_deg = 12.0;
   frame.welcome->session.longitude_deg = 34.0;

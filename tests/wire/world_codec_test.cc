@@ -48,6 +48,38 @@ TEST(WorldCodec, AFrameKeepsItsWorld) {
   EXPECT_EQ(got.spray, want.spray);
 }
 
+// A joiner needs them to know every height at every time.
+TEST(WorldCodec, AWelcomeKeepsTerrainAndTide) {
+  Frame frame;
+  frame.welcome.emplace();
+  frame.welcome->recipe.cascades = sea::DefaultCascades();
+  frame.welcome->recipe.timeline.resize(1);
+  frame.welcome->recipe.timeline[0].sea.systems = {sea::JonswapSystem{}};
+  frame.welcome->session.name = "harbour";
+  frame.welcome->session.terrain_hash = 0xfedcba9876543210ULL;
+  frame.welcome->water_level = {{-60.0, 0.5}, {3600.0, -1.25}};
+  const auto decoded = DecodeFrame(EncodeFrame(frame));
+  ASSERT_TRUE(decoded.ok()) << decoded.status();
+  EXPECT_EQ(decoded->welcome->session.terrain_hash, 0xfedcba9876543210ULL);
+  EXPECT_EQ(decoded->welcome->water_level, frame.welcome->water_level);
+  frame.welcome->water_level[1].level_m = std::nan("");
+  EXPECT_THAT(DecodeFrame(EncodeFrame(frame)).status().message(), HasSubstr("level_m"));
+  frame.welcome->water_level = {{1.0, 0.0}, {1.0, 0.0}};
+  EXPECT_THAT(DecodeFrame(EncodeFrame(frame)).status().message(), HasSubstr("time_s"));
+}
+
+TEST(WaterLevel, IsLinearBetweenEntriesAndConstantOutside) {
+  const std::vector<WaterLevel> tide = {{-10.0, 1.0}, {30.0, -1.0}, {40.0, 0.0}};
+  const auto at = [&](double time_s) { return WaterLevelAt(tide, SimTime::FromSeconds(time_s)); };
+  EXPECT_EQ(at(-1e6), 1.0);
+  EXPECT_EQ(at(-10.0), 1.0);
+  EXPECT_DOUBLE_EQ(at(10.0), 0.0);
+  EXPECT_DOUBLE_EQ(at(35.0), -0.5);
+  EXPECT_EQ(at(40.0), 0.0);
+  EXPECT_EQ(at(1e9), 0.0);
+  EXPECT_EQ(WaterLevelAt({}, SimTime{}), 0.0);
+}
+
 TEST(WorldCodec, AWorldThatChangedNothingHasNoRegions) {
   Frame frame;
   frame.world.emplace();

@@ -20,6 +20,9 @@
 ///
 /// CMake: find_package(onesea REQUIRED) and target_link_libraries(game PRIVATE onesea::client).
 ///
+/// Heights are those of the waves, lowered over the session's terrain if it has one, and of the water
+/// level (tide); wakes and splashes are the server's and not in them.
+///
 /// World frame: x east, y north, z up [m]; z = 0 is the mean water level. Time is sea time: seconds
 /// since the session's tick 0. Everything is thread-safe.
 namespace onesea {
@@ -48,13 +51,14 @@ struct Water {
   double velocity_m_per_s[3] = {0, 0,
                                 0};  ///< of the surface water, with the current; from kVelocity on
   bool folded = false;               ///< several sheets here; the top one answers
+  bool dry = false;  ///< land that no water covers; the height is the water's around
 };
 
 /// What SampleAtDepth() fills in.
 struct Underwater {
   double velocity_m_per_s[3] = {0, 0, 0};  ///< of the water particle, with the current
   double dynamic_pressure_pa = 0.0;        ///< without the hydrostatic part
-  bool dry = false;                        ///< above the surface then: zeros
+  bool dry = false;                        ///< above the surface or in dry land: zeros
 };
 
 /// How far this process's sea is from the server's.
@@ -87,8 +91,8 @@ class Sea {
   /// goes on.
   virtual double Now() const = 0;
 
-  /// Height of the surface [m] now. NaN for a place that isn't finite or farther than 1e7 m, and
-  /// after status() failed. Heights are interpolated linearly between moments 1/60 s apart: 0.35 mm
+  /// Height of the surface [m] now. NaN for a place that isn't finite or farther than 1e7 m, after
+  /// status() failed, and while a terrain that the session changed to is still on its way. Heights are interpolated linearly between moments 1/60 s apart: 0.35 mm
   /// at an acceleration of 1 g. Cost: some µs, and one synthesis (about 1 ms at the default
   /// resolution) per 1/60 s of sea time. For many places at once Sample() is far cheaper a place.
   virtual double HeightAt(double x_m, double y_m) const = 0;
@@ -98,7 +102,8 @@ class Sea {
   virtual double HeightAt(double x_m, double y_m, double time_s) const = 0;
 
   /// out[n] answers places[n] at `time_s`. InvalidArgument naming the place or time that is out of
-  /// range, or if the sizes differ; FailedPrecondition after status() failed.
+  /// range, or if the sizes differ; FailedPrecondition after status() failed; Unavailable while a
+  /// terrain that the session changed to is still on its way.
   virtual absl::Status Sample(std::span<const Place> places, double time_s, Detail detail,
                               std::span<Water> out) const = 0;
 
@@ -121,9 +126,10 @@ class Sea {
 };
 
 /// Joins and waits for the first correct height: one round trip, building the components (about 40
-/// ms per wave system) and, beside them, the exchange of clocks.
+/// ms per wave system) and, beside them, the exchange of clocks; then the session's terrain, if it
+/// has one (up to 64 MB).
 ///
-/// Unavailable: no server answers. NotFound: no such session. InvalidArgument: several sessions and
+/// Unavailable: no server answers, or not in time. NotFound: no such session. InvalidArgument: several sessions and
 /// no name, or an option out of range. FailedPrecondition: this process would build another sea;
 /// the message has both hashes.
 absl::StatusOr<std::unique_ptr<Sea>> Join(const std::string& address,
