@@ -13,6 +13,7 @@
 #include "common/base/vec.h"
 #include "common/sea/components.h"
 #include "common/sea/point_query.h"
+#include "common/sea/terrain.h"
 #include "common/wire/frame.h"
 
 namespace onesea::client {
