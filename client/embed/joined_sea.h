@@ -44,8 +44,7 @@ class JoinedSea final : public Sea, public SessionListener {
   void OnNewSea();
   void Tell(const std::string& line) const;
   void Fail(const absl::Status& status);
-  // The sea, or null once this process can't show it any more, or not yet again because a terrain is
-  // missing.
+  // The sea, or null once this process can't show it any more, or while a terrain is missing.
   LocalSea* UsableSea() const;
   absl::Status UsableStatus() const;
 

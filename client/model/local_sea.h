@@ -79,8 +79,8 @@ class LocalSea {
   void Sample(std::span<const Vec2d> places, SimTime time, sea::QueryDetail detail,
               std::span<sea::SurfaceSample> out) const;
 
-  /// out[n] answers places[n], depth_m[n] >= 0 below z = 0: the exact sum over all waves, about 15 µs
-  /// a place. Where Sample()'s height is lower than that there is no water, and the answer means
+  /// out[n] answers places[n], depth_m[n] >= 0 below z = 0: the exact sum over all waves, about
+  /// 15 µs a place. Where Sample()'s height is lower than that there is no water, and the answer means
   /// nothing.
   void SampleAtDepth(std::span<const Vec2d> places, std::span<const double> depth_m, SimTime time,
                      std::span<sea::DepthSample> out) const;
@@ -95,8 +95,8 @@ class LocalSea {
   absl::StatusOr<double> CompareProbes(const wire::ProbeHeights& probes);
   Drift drift() const;
 
-  /// For renderers: what Synthesiser, FoamWindow and MovingAttenuation are made from. Immutable; ask
-  /// again to see new weather or terrain.
+  /// For renderers: what Synthesiser, FoamWindow and MovingAttenuation are made from. Immutable;
+  /// ask again to see new weather or terrain.
   std::shared_ptr<const sea::Components> components() const;
   /// As the last Welcome had it; its tick is of that time.
   SessionInfo session() const;

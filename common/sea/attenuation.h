@@ -54,8 +54,8 @@ struct AttenuationGrid {
   friend bool operator==(const AttenuationGrid&, const AttenuationGrid&) = default;
 };
 
-/// Immutable: share it. Cost: some 0.1 s for 400 x 400 samples. Components that have one are the sea
-/// over that terrain, for all who synthesise or ask: see OverTerrain().
+/// Immutable: share it. Cost: some 0.1 s for 400 x 400 samples. Components that have one are the
+/// sea over that terrain, for all who synthesise or ask: see OverTerrain().
 class Attenuation {
  public:
   /// Directions of travel that are told apart.

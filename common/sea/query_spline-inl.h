@@ -75,8 +75,8 @@ HWY_INLINE void Prefetch(const QueryGrids& grids, const Block& block, std::size_
   }
 }
 
-// Weights of columns carry the unit of the records, that of the pairs and what the terrain leaves of
-// the cascade.
+// Weights of columns carry the unit of the records, that of the pairs and what the terrain leaves
+// of the cascade.
 HWY_INLINE void StoreWeights(float unit, const float* factors, std::size_t count,
                              CascadeBlock& to) {
   const D d;

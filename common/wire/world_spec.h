@@ -67,8 +67,8 @@ absl::Status ValidateRegionSpec(const std::string& prefix, const RegionSpec& reg
 absl::Status ValidateWaterLevel(const std::string& prefix, std::span<const WaterLevel> levels);
 absl::Status ValidateWorldSpec(const std::string& prefix, const WorldSpec& world);
 
-/// Of the whole sea above the mean [m]: linear between entries, constant outside, 0 without any. The
-/// same bits on every machine. Pre: ValidateWaterLevel() is OK.
+/// Of the whole sea above the mean [m]: linear between entries, constant outside, 0 without any.
+/// The same bits on every machine. Pre: ValidateWaterLevel() is OK.
 double WaterLevelAt(std::span<const WaterLevel> levels, SimTime time);
 
 }  // namespace onesea::wire

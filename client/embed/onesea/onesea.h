@@ -20,8 +20,8 @@
 ///
 /// CMake: find_package(onesea REQUIRED) and target_link_libraries(game PRIVATE onesea::client).
 ///
-/// Heights are those of the waves, lowered over the session's terrain if it has one, and of the water
-/// level (tide); wakes and splashes are the server's and not in them.
+/// Heights are those of the waves, lowered over the session's terrain if it has one, and of the
+/// water level (tide); wakes and splashes are the server's and not in them.
 ///
 /// World frame: x east, y north, z up [m]; z = 0 is the mean water level. Time is sea time: seconds
 /// since the session's tick 0. Everything is thread-safe.
@@ -92,9 +92,10 @@ class Sea {
   virtual double Now() const = 0;
 
   /// Height of the surface [m] now. NaN for a place that isn't finite or farther than 1e7 m, after
-  /// status() failed, and while a terrain that the session changed to is still on its way. Heights are interpolated linearly between moments 1/60 s apart: 0.35 mm
-  /// at an acceleration of 1 g. Cost: some µs, and one synthesis (about 1 ms at the default
-  /// resolution) per 1/60 s of sea time. For many places at once Sample() is far cheaper a place.
+  /// status() failed, and while a terrain that the session changed to is still on its way. Heights
+  /// are interpolated linearly between moments 1/60 s apart: 0.35 mm at an acceleration of 1 g.
+  /// Cost: some µs, and one synthesis (about 1 ms at the default resolution) per 1/60 s of sea
+  /// time. For many places at once Sample() is far cheaper a place.
   virtual double HeightAt(double x_m, double y_m) const = 0;
 
   /// The same at sea time `time_s`, past or future, within 3.2e9 s of tick 0, not interpolated in
@@ -129,9 +130,9 @@ class Sea {
 /// ms per wave system) and, beside them, the exchange of clocks; then the session's terrain, if it
 /// has one (up to 64 MB).
 ///
-/// Unavailable: no server answers, or not in time. NotFound: no such session. InvalidArgument: several sessions and
-/// no name, or an option out of range. FailedPrecondition: this process would build another sea;
-/// the message has both hashes.
+/// Unavailable: no server answers, or not in time. NotFound: no such session. InvalidArgument:
+/// several sessions and no name, or an option out of range. FailedPrecondition: this process would
+/// build another sea; the message has both hashes.
 absl::StatusOr<std::unique_ptr<Sea>> Join(const std::string& address,
                                           const JoinOptions& options = {});
 
