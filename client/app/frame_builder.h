@@ -34,9 +34,10 @@ class FrameBuilder {
   /// `grid_size` N of the synthesis: 64, 128, ..., 1024.
   explicit FrameBuilder(int grid_size) : grid_size_(grid_size) {}
 
-  /// Fills the sea's part of `frame` (waves, foam, wind, time, and the terrain of the components); the camera's place must be set. The
-  /// frame borrows from this object until the next call. Cost: about 5 ms at N = 256; the
-  /// first call and each change of weather: up to 1 s for the foam's past.
+  /// Fills the sea's part of `frame` (waves, foam, wind, time, and the terrain of the components);
+  /// the camera's place must be set. The frame borrows from this object until the next call. Cost:
+  /// about 5 ms at N = 256; the first call and each change of weather: up to 1 s for the foam's
+  /// past.
   void Fill(const std::shared_ptr<const sea::Components>& components, SimTime time,
             render::RenderFrame& frame);
 
