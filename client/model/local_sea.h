@@ -80,8 +80,8 @@ class LocalSea {
               std::span<sea::SurfaceSample> out) const;
 
   /// out[n] answers places[n], depth_m[n] >= 0 below z = 0: the exact sum over all waves, about
-  /// 15 µs a place. Where Sample()'s height is lower than that there is no water, and the answer means
-  /// nothing.
+  /// 15 µs a place. Where Sample()'s height is lower than that there is no water, and the answer
+  /// means nothing.
   void SampleAtDepth(std::span<const Vec2d> places, std::span<const double> depth_m, SimTime time,
                      std::span<sea::DepthSample> out) const;
 
