@@ -17,10 +17,12 @@ namespace {
 constexpr int kSamples = 4;
 constexpr int kHullsMax = 1024;  // in view
 // Coarser meshes have so many cells along the diagonal of their box.
-constexpr float kLevelCells[] = {64.0f, 32.0f, 16.0f, 8.0f};
+constexpr float kLevelCells[] = {36.0f, 18.0f, 9.0f, 4.5f};
 // And are drawn when a cell covers at most so many pixels; in the mirror, which has half as many
 // and is blurred by the waves, more.
-constexpr float kCellPixels = 2.2f, kImageCellPixels = 6.0f;
+// Hulls of fewer pixels are shaded without gloss and stains.
+constexpr float kPlainPixels = 80.0f;
+constexpr float kCellPixels = 4.0f, kImageCellPixels = 10.0f;
 
 // `zero` is the eye's place on the water level.
 glm::mat4 Placement(const HullInstance& hull, const Vec3d& zero) {
@@ -103,27 +105,29 @@ PixelBox PictureOf(std::span<const glm::vec3> points, float least, const FrameBl
 absl::StatusOr<HullPass> HullPass::Create() {
   constexpr const char* kKinds[][2] = {
       {"SAMPLES 1", "MIRROR 0"}, {"SAMPLES 4", "MIRROR 0"}, {"SAMPLES 1", "MIRROR 1"}};
-  std::array<ShaderProgram, 5> programs;
+  std::array<ShaderProgram, 8> programs;
   for (std::size_t n = 0; n < programs.size(); ++n) {
     auto program =
-        n < 3    ? ShaderProgram::Build({"frame.glsl", "hulls.vert.glsl"},
-                                        {"frame.glsl", "sky.glsl", "hulls.frag.glsl"},
-                                        {kKinds[n][0], kKinds[n][1], "kNearest 0.2"})
-        : n == 3 ? ShaderProgram::Build({"frame.glsl", "attenuation.glsl", "hulls_water.vert.glsl"},
-                                        {"hulls_water.frag.glsl"}, {"kHulls 1024"})
-                 : ShaderProgram::Build({"fullscreen.vert.glsl"}, {"hulls_place.frag.glsl"});
+        n < 6 ? ShaderProgram::Build({"frame.glsl", "hulls.vert.glsl"},
+                                     {"frame.glsl", "sky.glsl", "hulls.frag.glsl"},
+                                     {kKinds[n % 3][0], kKinds[n % 3][1],
+                                      n < 3 ? "PLAIN 0" : "PLAIN 1", "kNearest 0.2"})
+        : n == 6
+            ? ShaderProgram::Build({"frame.glsl", "attenuation.glsl", "hulls_water.vert.glsl"},
+                                   {"hulls_water.frag.glsl"}, {"kHulls 1024"})
+            : ShaderProgram::Build({"fullscreen.vert.glsl"}, {"hulls_place.frag.glsl"});
     if (!program.ok()) return program.status();
     programs[n] = std::move(*program);
   }
   return HullPass(std::move(programs));
 }
 
-HullPass::HullPass(std::array<ShaderProgram, 5> programs)
-    : one_(std::move(programs[0])),
-      four_(std::move(programs[1])),
-      mirror_(std::move(programs[2])),
-      water_(std::move(programs[3])),
-      place_(std::move(programs[4])) {
+HullPass::HullPass(std::array<ShaderProgram, 8> programs)
+    : one_{std::move(programs[0]), std::move(programs[3])},
+      four_{std::move(programs[1]), std::move(programs[4])},
+      mirror_{std::move(programs[2]), std::move(programs[5])},
+      water_(std::move(programs[6])),
+      place_(std::move(programs[7])) {
   BindTexture(0, GL_TEXTURE_2D, water_map_);
   glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, kHullsMax, 1, 0, GL_RGBA, GL_FLOAT, nullptr);
   SetSampling(GL_TEXTURE_2D, GL_NEAREST, GL_NEAREST, GL_CLAMP_TO_EDGE);
@@ -265,25 +269,39 @@ void HullPass::FindWater(const SeaTextures& sea, const PatchTextures& patches,
   glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(points.size()));
 }
 
-// `program` is in use; texture units from `unit` on are free.
-void HullPass::DrawMeshes(const ShaderProgram& program, bool image, const SkyPass& sky, int unit) {
+// Those that are large in the picture, then the others; texture unit 0 is what `before` names.
+void HullPass::DrawMeshes(const Programs& programs, const char* before, bool image,
+                          const SkyPass& sky) {
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   glDepthMask(GL_TRUE);
   glEnable(GL_CULL_FACE);
-  BindTexture(unit, GL_TEXTURE_2D, water_map_);
-  program.SetSampler("water_map", unit);
-  BindTexture(unit + 1, GL_TEXTURE_3D, sky.map());
-  program.SetSampler("sky_map", unit + 1);
-  BindTexture(unit + 2, GL_TEXTURE_2D, sky.haze());
-  program.SetSampler("haze_map", unit + 2);
-  BindTexture(unit + 3, GL_TEXTURE_2D, sky.clouds());
-  program.SetSampler("stain_map", unit + 3);
+  BindTexture(1, GL_TEXTURE_2D, water_map_);
+  BindTexture(2, GL_TEXTURE_3D, sky.map());
+  BindTexture(3, GL_TEXTURE_2D, sky.haze());
+  BindTexture(4, GL_TEXTURE_2D, sky.clouds());
+  for (const bool plain : {false, true}) {
+    const ShaderProgram& program = plain ? programs.plain : programs.full;
+    program.Use();
+    if (before != nullptr) program.SetSampler(before, 0);
+    program.SetSampler("water_map", 1);
+    program.SetSampler("sky_map", 2);
+    program.SetSampler("haze_map", 3);
+    program.SetSampler("stain_map", 4);
+    DrawInstances(program, image, plain);
+  }
+  glDisable(GL_CULL_FACE);
+  glDisable(GL_DEPTH_TEST);
+}
+
+void HullPass::DrawInstances(const ShaderProgram& program, bool image, bool plain) {
   const GLint matrix = program.Uniform("world_from_body"), colour = program.Uniform("colour");
   const GLint index = program.Uniform("hull");
   for (std::size_t n = 0; n < visible_.size(); ++n) {
     const Visible& hull = visible_[n];
+    const float size_m = glm::distance(hull.mesh->low, hull.mesh->high);
     if (!(image ? hull.has_image : hull.in_view)) continue;
+    if ((size_m < kPlainPixels * hull.pixel_m) != plain) continue;
     glUniform1i(index, static_cast<GLint>(n));
     glUniformMatrix4fv(matrix, 1, GL_FALSE, glm::value_ptr(hull.world_from_body));
     glUniform3fv(colour, 1, hull.colour.data());
@@ -294,8 +312,6 @@ void HullPass::DrawMeshes(const ShaderProgram& program, bool image, const SkyPas
     glBindVertexArray(level.vertices.id());
     glDrawArrays(GL_TRIANGLES, 0, level.count);
   }
-  glDisable(GL_CULL_FACE);
-  glDisable(GL_DEPTH_TEST);
 }
 
 HullMirror HullPass::DrawMirror(int width, int height, const SeaTextures& sea,
@@ -320,9 +336,8 @@ HullMirror HullPass::DrawMirror(int width, int height, const SeaTextures& sea,
   }
   mirror_picture_.Bind();
   Clear();
-  mirror_.Use();
   glFrontFace(GL_CW);  // as mirrors have it
-  DrawMeshes(mirror_, true, sky, 0);
+  DrawMeshes(mirror_, nullptr, true, sky);
   glFrontFace(GL_CCW);
   return {&mirror_picture_.texture, &mirror_distance_, mirror_box_};
 }
@@ -342,11 +357,8 @@ void HullPass::Draw(const VertexArray& empty, const ColorTarget& scene,
   }
   around.Scissor();
   const bool one = geometry.target() == GL_TEXTURE_2D;
-  const ShaderProgram& program = one ? one_ : four_;
-  program.Use();
   BindTexture(0, geometry.target(), one ? geometry.depth() : geometry.surface());
-  program.SetSampler(one ? "depth_map" : "surface_map", 0);
-  DrawMeshes(program, false, sky, 1);
+  DrawMeshes(one ? one_ : four_, one ? "depth_map" : "surface_map", false, sky);
 
   scene.Bind();
   place_.Use();

@@ -56,17 +56,22 @@ class HullPass {
     bool in_view, has_image;
     float pixel_m;  // of one pixel's breadth, there
   };
-  explicit HullPass(std::array<ShaderProgram, 5> programs);
+  // For hulls that are large in the picture, and for the others.
+  struct Programs {
+    ShaderProgram full, plain;
+  };
+  explicit HullPass(std::array<ShaderProgram, 8> programs);
   static Level Upload(const HullMesh& mesh, float cell_m);
   const Mesh& MeshFor(const std::shared_ptr<const HullMesh>& source);
   void Forget();
   void Resize(int width, int height);
   void FindWater(const SeaTextures& sea, const PatchTextures& patches,
                  const AttenuationTexture& attenuation);
-  void DrawMeshes(const ShaderProgram& program, bool image, const SkyPass& sky, int unit);
+  void DrawMeshes(const Programs& programs, const char* before, bool image, const SkyPass& sky);
+  void DrawInstances(const ShaderProgram& program, bool image, bool plain);
 
-  // Sea of one sample a pixel, of four; mirror image; water under hulls; picture over the scene.
-  ShaderProgram one_, four_, mirror_, water_, place_;
+  Programs one_, four_, mirror_;  // over a sea of one sample a pixel, of four; the mirror image
+  ShaderProgram water_, place_;   // water under hulls; picture over the scene
   std::map<const HullMesh*, Mesh> meshes_;
   std::vector<Visible> visible_;
   std::vector<PixelBox> boxes_;  // disjoint, around all that is in view

@@ -55,12 +55,16 @@ void main() {
 
   // The last hand's breadth above the water is wet, and darker for it.
   float above = gloss_above.y;
+#if PLAIN
+  vec3 albedo = paint * (0.97 - 0.4 * (1.0 - smoothstep(0.02, 0.17, above)));
+#else
   // Nothing afloat is evenly clean: salt, scuffs, and streaks that ran down.
   vec2 skin = vec2(body.x + 0.7 * body.y, body.z + 0.3 * body.y);
   float patchy = texture(stain_map, 0.11 * skin).r, fine = texture(stain_map, vec2(0.9, 0.23) * skin).r;
   float wet = 1.0 - smoothstep(0.02, 0.10 + 0.14 * patchy, above);
   vec3 albedo = paint * (0.80 + 0.22 * patchy + 0.12 * fine) * mix(1.0, 0.55, wet);
   float gloss = mix(gloss_above.x, 0.85, 0.7 * wet);
+#endif
 
   // Light: the sun, the sky's half above, and from below what the water gives back.
   vec3 sea = kPi * water_leaving.rgb + 0.07 * sky_irradiance.rgb;
@@ -71,6 +75,7 @@ void main() {
   float lit = max(dot(n, sun_direction.xyz), 0.0);
   vec3 colour = albedo / kPi * (light + sun_irradiance.rgb * lit);
 
+#if !PLAIN
   // Varnish: a mirror image of sky or sea, stronger at grazing angles; the sun's, spread by gloss.
   float cosine = clamp(dot(n, v), 0.0, 1.0);
   float grazing = 1.0 - cosine;
@@ -84,6 +89,7 @@ void main() {
   float power = exp2(3.0 + 7.0 * gloss);
   float spot = pow(max(dot(n, h), 0.0), power) * (power + 8.0) / (8.0 * kPi);
   colour += min(sun_irradiance.rgb * (spot * lit * gloss * 0.05), vec3(30.0));
+#endif
 
   if (eye.z < 0.0) {
     vec3 passed = exp(-distance * vec3(0.30, 0.09, 0.07));
