@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "common/base/clock.h"
+#include "common/sea/attenuation.h"
 
 namespace onesea::client {
 namespace {
@@ -18,12 +19,16 @@ void Cockpit::Update(const SkipperInput& keys, const CameraInput& camera, SimTim
                      double seconds) {
   const std::shared_ptr<const WorldView> world = source_.world();
   const WorldView nothing;
+  const std::shared_ptr<const sea::Components> components = source_.components();
+  terrain_ =
+      components->attenuation == nullptr ? nullptr : components->attenuation->shared_terrain();
   const Outlook outlook{place(), At(0.0).yaw_rad};
   skipper_.Update(keys, outlook, world != nullptr ? *world : nothing,
                   {.now = now,
-                   .tick_rate_hz = source_.components()->recipe.tick_rate_hz,
+                   .tick_rate_hz = components->recipe.tick_rate_hz,
                    .seconds = seconds,
-                   .now_ns = SystemClock().MonotonicNs()});
+                   .now_ns = SystemClock().MonotonicNs(),
+                   .terrain = terrain_.get()});
   if (own()) {
     if (!had_boat_) {
       follow_ = FollowCamera();
@@ -56,7 +61,10 @@ void Cockpit::ToggleOrbit() {
 }
 
 render::Camera Cockpit::At(double sea_height_m) const {
-  return following_ ? follow_.At(sea_height_m) : camera_.At(sea_height_m);
+  if (!following_) return camera_.At(sea_height_m);
+  // Behind a boat that leaves a quay there is land.
+  return follow_.At(terrain_ == nullptr ? sea_height_m
+                                        : std::max(sea_height_m, terrain_->ElevationAt(place())));
 }
 
 }  // namespace onesea::client

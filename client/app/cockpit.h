@@ -32,6 +32,7 @@ class Cockpit {
   Skipper skipper_;
   CameraControl camera_;
   FollowCamera follow_;
+  std::shared_ptr<const sea::Terrain> terrain_;  // as of the last Update()
   bool following_ = false, had_boat_ = false;
 };
 

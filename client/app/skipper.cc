@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numbers>
 #include <random>
 #include <utility>
 
@@ -16,7 +17,8 @@ namespace {
 constexpr char kBoatKind[] = "boat", kCrateKind[] = "crate";
 constexpr double kLaunchAheadM = 15.0;  // of the camera
 constexpr double kBerthM = 10.0;        // free of others around a new boat
-constexpr double kCrateAsternM = 6.0;
+constexpr double kBoatDepthM = 1.2;     // of water that it needs
+constexpr double kCrateAsternM = 6.0, kCrateDepthM = 0.3;
 constexpr double kExplosionAheadM = 18.0, kExplosionDepthM = 1.5;
 constexpr double kExplosionJ = 4.2e6;  // a kilogram of TNT
 constexpr std::int64_t kLineNs = 6'000'000'000;
@@ -34,20 +36,25 @@ std::uint32_t AnyColour() {
   return kColours[std::random_device()() % std::size(kColours)];
 }
 
-// The nearest place abeam of `wanted` that is free of bodies.
-Vec2d FreePlace(Vec2d wanted, double heading_rad, const WorldView& world, SimTime now) {
+bool IsAfloat(Vec2d place, double depth_m, const WorldView& world, const sea::Terrain* terrain) {
+  return terrain == nullptr || world.water_level_m() - terrain->ElevationAt(place) > depth_m;
+}
+
+// The nearest place abeam of `wanted` that is free of bodies and deep enough; none: none near.
+std::optional<Vec2d> FreePlace(Vec2d wanted, double heading_rad, const WorldView& world,
+                               const Skipper::Moment& moment) {
   const auto is_free = [&](Vec2d place) {
     return std::none_of(world.bodies().begin(), world.bodies().end(), [&](const auto& body) {
-      const Vec3d other = body.At(now).position_m;
+      const Vec3d other = body.At(moment.now).position_m;
       return Norm(place - Vec2d{other.x, other.y}) < kBerthM;
     });
   };
   for (int n = 0; n < 64; ++n) {
     const double side_m = 0.5 * kBerthM * (n % 2 == 0 ? -(n / 2) : n / 2 + 1);
-    const Vec2d place = Along(wanted, heading_rad + 0.5 * 3.14159265358979323846, side_m);
-    if (is_free(place)) return place;
+    const Vec2d place = Along(wanted, heading_rad + 0.5 * std::numbers::pi, side_m);
+    if (is_free(place) && IsAfloat(place, kBoatDepthM, world, moment.terrain)) return place;
   }
-  return wanted;
+  return std::nullopt;
 }
 
 wire::SpawnBody SpawnOf(const char* kind, Vec2d place, double heading_rad) {
@@ -187,14 +194,19 @@ void Skipper::ObeyKeys(const SkipperInput& input, const Outlook& outlook, const 
   }
   if (input.spawn) {
     if (boat_ == nullptr && !launching_) {
-      Launch(outlook, world, moment.now);
+      Launch(outlook, world, moment);
     } else {
       Say("you have a boat; Delete takes it out of the water");
     }
   }
   if (input.crate) {
     const double ahead_m = aboard ? -kCrateAsternM : kLaunchAheadM;
-    Send(Kind::kCrate, SpawnOf(kCrateKind, Along(place, heading_rad, ahead_m), heading_rad));
+    const Vec2d there = Along(place, heading_rad, ahead_m);
+    if (IsAfloat(there, kCrateDepthM, world, moment.terrain)) {
+      Send(Kind::kCrate, SpawnOf(kCrateKind, there, heading_rad));
+    } else {
+      Say("no crate: there is no water");
+    }
   }
   if (input.explode) {
     const Vec2d there = Along(place, heading_rad, kExplosionAheadM);
@@ -209,10 +221,12 @@ void Skipper::ObeyKeys(const SkipperInput& input, const Outlook& outlook, const 
   }
 }
 
-void Skipper::Launch(const Outlook& outlook, const WorldView& world, SimTime now) {
-  const Vec2d place = FreePlace(Along(outlook.place_m, outlook.heading_rad, kLaunchAheadM),
-                                outlook.heading_rad, world, now);
-  wire::SpawnBody spawn = SpawnOf(kBoatKind, place, outlook.heading_rad);
+void Skipper::Launch(const Outlook& outlook, const WorldView& world, const Moment& moment) {
+  const std::optional<Vec2d> place =
+      FreePlace(Along(outlook.place_m, outlook.heading_rad, kLaunchAheadM), outlook.heading_rad,
+                world, moment);
+  if (!place) return Say("no boat: there is no free water ahead");
+  wire::SpawnBody spawn = SpawnOf(kBoatKind, *place, outlook.heading_rad);
   spawn.body.colour_rgb = colour_rgb_;
   Send(Kind::kSpawn, std::move(spawn));
   launching_ = true;

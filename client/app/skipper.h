@@ -10,6 +10,7 @@
 #include "client/model/helm.h"
 #include "client/model/local_world.h"
 #include "client/net/command_sender.h"
+#include "common/sea/terrain.h"
 
 namespace onesea::client {
 
@@ -52,6 +53,7 @@ class Skipper {
     int tick_rate_hz = 60;
     double seconds = 0.0;  ///< real ones since the last call
     std::int64_t now_ns = 0;
+    const sea::Terrain* terrain = nullptr;  ///< null: water everywhere
   };
   /// Once a picture.
   void Update(const SkipperInput& input, const Outlook& outlook, const WorldView& world,
@@ -83,7 +85,7 @@ class Skipper {
   void Follow(const WorldView& world, const Moment& moment);
   void ObeyKeys(const SkipperInput& input, const Outlook& outlook, const WorldView& world,
                 const Moment& moment);
-  void Launch(const Outlook& outlook, const WorldView& world, SimTime now);
+  void Launch(const Outlook& outlook, const WorldView& world, const Moment& moment);
   void Steer(const HelmKeys& keys, const Moment& moment);
   void Say(std::string line);
 
