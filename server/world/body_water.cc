@@ -15,6 +15,17 @@ constexpr double kMargin = 1.15;
 // As good as 0 at any depth of a hull, and harmless times infinity.
 constexpr double kInteractionWavenumber = 1e-6;
 
+// Under the middle of a patch, below the mean level.
+double DepthAt(const IncidentSea& sea, const WaterPatch& patch) {
+  double depth_m = sea.depth_m > 0.0 ? sea.depth_m : std::numeric_limits<double>::infinity();
+  if (sea.terrain != nullptr) {
+    const Vec2d middle{patch.west_m + 0.5 * (patch.columns - 1) * patch.cell_m,
+                       patch.south_m + 0.5 * (patch.rows - 1) * patch.cell_m};
+    depth_m = std::min(depth_m, -sea.terrain->ElevationAt(middle));
+  }
+  return std::max(depth_m + sea.level_m, 0.1);
+}
+
 }  // namespace
 
 void BodyWater::Clear() {
@@ -59,8 +70,7 @@ void BodyWater::FillOne(const IncidentSea& sea, std::span<const double> interact
   patch.Resize(place.side, place.side, static_cast<int>(sea_bands) + 1);
   patch.level_m = sea.level_m;
   patch.current_m_per_s = {sea.current_m_per_s.x, sea.current_m_per_s.y, 0.0};
-  patch.depth_m = sea.depth_m > 0.0 ? std::max(sea.depth_m + sea.level_m, 0.1)
-                                    : std::numeric_limits<double>::infinity();
+  patch.depth_m = DepthAt(sea, patch);
   for (std::size_t b = 0; b < sea_bands; ++b) {
     patch.wavenumber_rad_per_m[b] = sea.wavenumber_rad_per_m[b];
   }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/sea/point_query.h"
+#include "common/sea/terrain.h"
 #include "server/world/displaced_columns.h"
 #include "server/world/water_patch.h"
 
@@ -18,6 +19,8 @@ struct IncidentSea {
   double level_m = 0.0;                            ///< of the mean water above z = 0
   Vec2d current_m_per_s{};
   double depth_m = 0.0;  ///< below z = 0; 0: infinitely deep
+  /// Makes it shallower where a body is: waves press on a hull down to the bottom there. Null: none.
+  const sea::Terrain* terrain = nullptr;
 };
 
 /// Reuses its memory: allocates only when there are more bodies than ever. Not thread-safe.

@@ -127,7 +127,8 @@ void World::FillWater() {
                         .wavenumber_rad_per_m = wavenumbers_,
                         .level_m = LevelAt(TimeOfTick(tick_, options_.tick_rate_hz)),
                         .current_m_per_s = options_.current_m_per_s,
-                        .depth_m = options_.depth_m};
+                        .depth_m = options_.depth_m,
+                        .terrain = options_.terrain.get()};
   water_.Fill(sea, felt_m_);
 }
 

@@ -19,7 +19,9 @@ class BodyWaterTest : public ::testing::Test {
     snapshot_ = sea::SnapshotBuilder(components_).At(time_, sea::QueryDetail::kVelocity);
     wavenumbers_ = sea::BandWavenumbers(*components_, time_);
   }
-  IncidentSea Sea() const { return {snapshot_.get(), wavenumbers_, 0.0, {}, 0.0}; }
+  IncidentSea Sea() const {
+    return {.waves = snapshot_.get(), .wavenumber_rad_per_m = wavenumbers_};
+  }
 
   SimTime time_ = SimTime::FromSeconds(33.0);
   std::shared_ptr<sea::Components> components_;
@@ -93,6 +95,26 @@ TEST_F(BodyWaterTest, MemoryIsUsedAgain) {
     water.Fill(Sea(), {});
     EXPECT_EQ(water.points_m().size(), 25u);
   }
+}
+
+TEST_F(BodyWaterTest, TheBottomIsThatOfThePlace) {
+  const sea::Terrain slope{.west_m = -100,
+                           .south_m = -100,
+                           .cell_m = 200,
+                           .columns = 2,
+                           .rows = 2,
+                           .elevation_m = {-20, 0, -20, 0}};
+  BodyWater water;
+  for (const double x : {-100.0, 0.0, 99.0, 300.0}) water.Add({x, 0}, 1.0);
+  IncidentSea sea = Sea();
+  sea.depth_m = 15.0;
+  sea.level_m = 0.5;
+  sea.terrain = &slope;
+  water.Fill(sea, {});
+  EXPECT_NEAR(water.patch(0).depth_m, 15.5, 1e-9);
+  EXPECT_NEAR(water.patch(1).depth_m, 10.5, 1e-9);
+  EXPECT_NEAR(water.patch(2).depth_m, 0.6, 1e-9);
+  EXPECT_NEAR(water.patch(3).depth_m, 0.5, 1e-9);
 }
 
 }  // namespace
