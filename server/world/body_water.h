@@ -19,7 +19,7 @@ struct IncidentSea {
   double level_m = 0.0;                            ///< of the mean water above z = 0
   Vec2d current_m_per_s{};
   double depth_m = 0.0;  ///< below z = 0; 0: infinitely deep
-  /// Makes it shallower where a body is: waves press on a hull down to the bottom there. Null: none.
+  /// Makes it shallower where a body is: waves press on a hull as in that depth. Null: none.
   const sea::Terrain* terrain = nullptr;
 };
 

@@ -1,4 +1,4 @@
-// The session of `deploy/run harbour`: whatever floats there goes on floating, upright and in place.
+// The session of `deploy/run harbour`: whatever floats there goes on floating, upright, in place.
 #include <gtest/gtest.h>
 
 #include <cmath>
