@@ -85,6 +85,14 @@ absl::Status RigidBodies::SetDrive(BodyId id, const DriveCommand& command) {
   return absl::OkStatus();
 }
 
+absl::Status RigidBodies::Raise(BodyId id, double metres, double rise_m_per_s) {
+  SteppedBody* entry = Find(id);
+  if (entry == nullptr) return NoBody(id);
+  entry->state.pose.centre_m.z += metres;
+  entry->state.velocity_m_per_s.z += rise_m_per_s;
+  return absl::OkStatus();
+}
+
 absl::Status RigidBodies::ApplyImpulse(BodyId id, Vec3d impulse_n_s, Vec3d place_m) {
   SteppedBody* entry = Find(id);
   if (entry == nullptr) return NoBody(id);

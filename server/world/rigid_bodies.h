@@ -64,6 +64,8 @@ class RigidBodies {
 
   /// NotFound; InvalidArgument for numbers that are not finite or beyond the limits.
   absl::Status SetDrive(BodyId id, const DriveCommand& command);
+  /// Puts it higher by `metres` and lets it rise by so much. Pre: both finite. NotFound.
+  absl::Status Raise(BodyId id, double metres, double rise_m_per_s);
   /// At a place in the world; at most kBodyForceMaxN during a second.
   absl::Status ApplyImpulse(BodyId id, Vec3d impulse_n_s, Vec3d place_m);
   /// Of a body that its owner integrates. FailedPrecondition for others.

@@ -58,6 +58,7 @@ void World::Step(Tick tick, const std::shared_ptr<const sea::Components>& compon
   const SimTime start = TimeOfTick(tick_, options_.tick_rate_hz);
   PlaceRegions().IgnoreError();  // a region without water is left out until there is some
   SampleSea(tick_, components);
+  FloatNewBodies();
   FillWater();
   Water water(water_);
   rigid_.Step(water, AirAt(components->recipe, start));
@@ -112,6 +113,18 @@ void World::SampleSea(Tick tick, const std::shared_ptr<const sea::Components>& c
   if (wavenumbers_.empty() || tick % options_.tick_rate_hz == 0 ||
       wavenumbers_.size() != static_cast<std::size_t>(sea_->bands())) {
     wavenumbers_ = sea::BandWavenumbers(*components, time);
+  }
+}
+
+void World::FloatNewBodies() {
+  for (auto& [id, body] : bodies_) {
+    if (!std::exchange(body.is_to_float, false)) continue;
+    const Vec3d centre_m = rigid_.FindState(id)->pose.centre_m;
+    const Vec2d place{centre_m.x, centre_m.y};
+    sea::SurfaceSample sea;
+    sea_->Sample({&place, 1}, {&sea, 1});
+    const double layer_m = sea::SampleInteraction(felt_, place).height_m;
+    rigid_.Raise(id, sea.height_m + layer_m, sea.velocity_z_m_per_s).IgnoreError();
   }
 }
 

@@ -95,6 +95,7 @@ class World {
     std::shared_ptr<const std::string> mesh;  // file, or null
     std::shared_ptr<const wire::BodyInfo> info;
     double pressed_share = 0.0;  // of the displacement at rest, lagging behind the true one
+    bool is_to_float = false;    // on the waves of its first step, which it was spawned without
   };
   class Water;
 
@@ -109,6 +110,7 @@ class World {
 
   absl::Status PlaceRegions();
   void SampleSea(Tick tick, const std::shared_ptr<const sea::Components>& components);
+  void FloatNewBodies();
   void FillWater();
   Air AirAt(const sea::Recipe& recipe, SimTime time) const;
   double LevelAt(SimTime time) const;

@@ -66,8 +66,9 @@ absl::Status World::Begin(const wire::WorldSpec& spec) {
 absl::StatusOr<std::uint32_t> World::Spawn(const PreparedBody& prepared,
                                            const wire::Kinematics& start) {
   BodyState state = FromWire(start);
-  // A start at z = 0 means afloat.
-  if (state.pose.centre_m.z == 0.0) {
+  // A start at z = 0 means afloat: here on still water, in the first step on its waves.
+  const bool is_to_float = state.pose.centre_m.z == 0.0;
+  if (is_to_float) {
     state.pose.centre_m.z =
         LevelAt(TimeOfTick(tick_, options_.tick_rate_hz)) +
         (prepared.model->rest.floats ? prepared.model->rest.centre_height_m : 0.0);
@@ -77,6 +78,7 @@ absl::StatusOr<std::uint32_t> World::Spawn(const PreparedBody& prepared,
   Body& body = bodies_[wire_id];
   body.model = prepared.model;
   body.mesh = prepared.mesh;
+  body.is_to_float = is_to_float;
   wire::BodyInfo info = prepared.info;
   info.id = wire_id;
   body.info = std::make_shared<const wire::BodyInfo>(std::move(info));

@@ -101,6 +101,33 @@ TEST_F(WorldTest, ABodyFloatsAtItsDraft) {
   EXPECT_NEAR(StateOf(id).position_m.z, -0.5 + 0.3, 0.01);
 }
 
+// Whatever the sea does at the place, a body that is launched there neither drops nor pops up.
+TEST_F(WorldTest, ABodyIsLaunchedOnTheWavesOfThePlace) {
+  const auto sea = sea::FakeSea(
+      {.lengths_m = {307.0, 97.0}, .index_max = 8, .hs_m = 4.0, .query_grid_size = 64});
+  sea::SnapshotBuilder builder(sea);
+  double highest = 0.0;
+  for (int n = 0; n < 12; ++n) {
+    World world{WorldOptions{}};
+    const auto body = PrepareBody(Box({2, 2, 1}, 2050.0));
+    const Vec2d place{23.0 * n, -11.0 * n};
+    const std::uint32_t id = *world.Spawn(*body, AfloatAt(place));
+    sea::SurfaceSample water;
+    builder.At({}, sea::QueryDetail::kHeight)->Sample({&place, 1}, {&water, 1});
+    highest = std::max<double>(highest, std::abs(water.height_m));
+    world.Step(1, sea);
+    const wire::BodyState first = world.view()->bodies[0].state;
+    // At rest the centre lies 0.2 m under the water: half a metre of draft, 0.3 m above the bottom.
+    EXPECT_NEAR(first.position_m.z, water.height_m - 0.2, 0.1) << id;
+    for (Tick tick = 2; tick <= 60; ++tick) {
+      world.Step(tick, sea);
+      const double rise = world.view()->bodies[0].state.velocity_m_per_s.z;
+      EXPECT_LT(std::abs(rise - first.velocity_m_per_s.z), 2.0) << n;
+    }
+  }
+  EXPECT_GT(highest, 1.0);  // else this proves nothing
+}
+
 TEST_F(WorldTest, StillWaterMakesRoomAndTheBodyDoesNotFeelIt) {
   AddRegion(Square(128));
   const std::uint32_t id = Spawn(Box({4, 2, 1}, 4100.0));
