@@ -34,6 +34,9 @@ void WriteSession(const SessionInfo& info, JsonWriter& json) {
   json.Key("tick_rate_hz").Value(info.tick_rate_hz).Key("hs_m").Value(info.hs_m);
   json.Key("viewer_count").Value(info.viewer_count);
   json.Key("component_hash").Value(absl::StrFormat("%016x", info.component_hash));
+  if (info.terrain_hash != 0) {
+    json.Key("terrain_hash").Value(absl::StrFormat("%016x", info.terrain_hash));
+  }
   json.Key("transform").Value(info.transform);
   json.EndObject();
 }
@@ -46,9 +49,10 @@ void PrintSession(const CliContext& context, const SessionInfo& info) {
     return;
   }
   context.out << absl::StreamFormat(
-      "%s: %s, Hs %.2f m, tick %d (%.3f s), %s at %g x, %d viewers, component hash %016x\n",
+      "%s: %s, Hs %.2f m, tick %d (%.3f s), %s at %g x, %d viewers, component hash %016x%s\n",
       info.name, info.sea_name, info.hs_m, info.tick, TimeS(info), PaceText(info.pace), info.speed,
-      info.viewer_count, info.component_hash);
+      info.viewer_count, info.component_hash,
+      info.terrain_hash == 0 ? "" : absl::StrFormat(", terrain hash %016x", info.terrain_hash));
 }
 
 absl::Status RunSessions(const CliContext& context, const Arguments&) {

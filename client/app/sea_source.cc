@@ -100,7 +100,6 @@ class ServerSource : public SeaSource, private SessionListener {
     return sea == nullptr ? nullptr : sea->components();
   }
   double WaterLevelAt(SimTime time) const override { return sea()->WaterLevelAt(time); }
-  bool terrain_is_coming() const override { return sea()->missing_terrain() != 0; }
   std::shared_ptr<const WorldView> world() const override { return world_.view(); }
   CommandSender* commands() override { return &sender_; }
   std::vector<wire::Spray> TakeSpray() override { return world_.TakeSpray(); }
@@ -114,6 +113,8 @@ class ServerSource : public SeaSource, private SessionListener {
     absl::MutexLock lock(&mutex_);
     report.link = link_;
     if (sea_ == nullptr) return report;
+    // Until then the open sea is drawn.
+    if (sea_->missing_terrain() != 0) absl::StrAppend(&report.link, ", terrain is coming");
     report.tick = TickAtOrBefore(now.render, sea_->components()->recipe.tick_rate_hz);
     const Drift drift = sea_->drift();
     if (drift.comparisons > 0) report.drift_m = drift.last_m;

@@ -32,8 +32,6 @@ class SeaSource {
   virtual std::shared_ptr<const sea::Components> components() const = 0;
   /// Mean level of the whole sea [m], to be added to every height.
   virtual double WaterLevelAt(SimTime /*time*/) const { return 0.0; }
-  /// Is the sea still drawn without the terrain that it lies over?
-  virtual bool terrain_is_coming() const { return false; }
   /// Wakes and bodies; null: this source has none.
   virtual std::shared_ptr<const WorldView> world() const { return nullptr; }
   /// The way for commands; null: there is none. Lives as long as this.

@@ -155,6 +155,7 @@ AttenuationGrid Attenuation::At(std::span<const double> weights) const {
     for (const double m2 : share) whole_m2 += m2;
     for (double& m2 : share) m2 = whole_m2 > 0.0 ? m2 / whole_m2 : 1.0 / kDirections;
     for (std::size_t cell = 0; cell < depth_m_.size(); ++cell) {
+      if (!(depth_m_[cell] > 0.0f)) continue;  // land
       double arriving = 0.0;
       for (int t = 0; t < kDirections; ++t)
         arriving += share[t] * arriving_[cell * kDirections + t];

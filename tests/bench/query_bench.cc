@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "common/sea/attenuation.h"
 #include "common/sea/point_query.h"
 #include "tests/bench/thread_seconds.h"
 #include "tests/sea/fake_sea.h"
@@ -103,6 +104,46 @@ BENCHMARK(BM_FourCascades)
     ->Args({1, 3})
     ->Args({3, 1})
     ->Unit(benchmark::kMicrosecond);
+
+// Against the open sea in the same run.
+void BM_OverTerrain(benchmark::State& state) {
+  auto terrain = std::make_shared<Terrain>();
+  *terrain = {
+      .west_m = 0, .south_m = 0, .cell_m = 5, .columns = 401, .rows = 401, .elevation_m = {}};
+  for (int n = 0; n < 401 * 401; ++n) {
+    terrain->elevation_m.push_back(static_cast<float>(-25.0 + 0.06 * (n % 401)));
+  }
+  const auto open = FakeSea({.hs_m = 1.0, .depth_m = 25.0});
+  const auto sea = OverTerrain(open, terrain);
+  const auto detail = static_cast<QueryDetail>(state.range(0));
+  const auto over = SnapshotBuilder(sea).At(SimTime{}, detail);
+  const auto without = SnapshotBuilder(open).At(SimTime{}, detail);
+  const auto points = RandomPoints(16384);
+  std::vector<SurfaceSample> out(points.size());
+  for (auto _ : state) over->Sample(points, out);
+  double over_s = 1e9, open_s = 1e9;
+  for (int round = 0; round < 5; ++round) {
+    over_s = std::min(over_s, MedianThreadSeconds([&] { over->Sample(points, out); }));
+    open_s = std::min(open_s, MedianThreadSeconds([&] { without->Sample(points, out); }));
+  }
+  Report(state, points, over_s);
+  state.counters["open_ns"] = 1e9 * open_s / static_cast<double>(points.size());
+}
+BENCHMARK(BM_OverTerrain)->ArgName("detail")->Arg(1)->Arg(3)->Unit(benchmark::kMicrosecond);
+
+void BM_TerrainFactors(benchmark::State& state) {
+  const auto open = FakeSea({.depth_m = 25.0});
+  auto terrain = std::make_shared<Terrain>();
+  *terrain = {
+      .west_m = 0, .south_m = 0, .cell_m = 5, .columns = 401, .rows = 401, .elevation_m = {}};
+  terrain->elevation_m.assign(401 * 401, -12.0f);
+  const double build_s = MedianThreadSeconds([&] { OverTerrain(open, terrain); });
+  const auto sea = OverTerrain(open, terrain);
+  const std::vector<double> weights = {1.0};
+  for (auto _ : state) benchmark::DoNotOptimize(sea->attenuation->At(weights));
+  state.counters["build_ms"] = 1e3 * build_s;
+}
+BENCHMARK(BM_TerrainFactors)->Unit(benchmark::kMillisecond);
 
 void BM_Snapshot(benchmark::State& state) {
   const auto sea = FakeSea();
