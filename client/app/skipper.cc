@@ -15,6 +15,7 @@ namespace onesea::client {
 namespace {
 
 constexpr char kBoatKind[] = "boat", kCrateKind[] = "crate";
+constexpr char kOwner[] = "a viewer";
 constexpr double kLaunchAheadM = 15.0;  // of the camera
 constexpr double kBerthM = 10.0;        // free of others around a new boat
 constexpr double kBoatDepthM = 1.2;     // of water that it needs
@@ -62,7 +63,7 @@ wire::SpawnBody SpawnOf(const char* kind, Vec2d place, double heading_rad) {
   ONESEA_CHECK(body.ok()) << body.status().ToString();
   wire::SpawnBody spawn;
   spawn.body = *std::move(body);
-  spawn.body.owner = "a viewer";
+  spawn.body.owner = kOwner;
   spawn.start.position_m = {place.x, place.y, 0.0};  // afloat
   spawn.start.turn = TurnBy({0, 0, heading_rad});
   return spawn;
@@ -142,6 +143,11 @@ void Skipper::Done(Kind kind, std::int64_t number, const CommandAnswer& answer,
   }
   if (boat_ == nullptr) return;
   if (kind == Kind::kRegion) boat_->region = answer.id;
+  if (kind == Kind::kLease) {
+    boat_->lease = answer.lease;
+    boat_->asks_for_lease = false;
+    boat_->timer.SendAgain();
+  }
   if (kind == Kind::kRemove) {
     if (boat_->region != 0) Send(Kind::kOther, wire::RemoveRegion{boat_->region});
     Say(absl::StrCat("boat ", boat_->id, " is gone"));
@@ -160,15 +166,28 @@ void Skipper::Done(Kind kind, std::int64_t number, const CommandAnswer& answer,
 
 void Skipper::Refused(Kind kind, std::int64_t number, const absl::Status& status) {
   if (kind == Kind::kSpawn) launching_ = false;
+  if (kind == Kind::kLease && boat_ != nullptr) boat_->asks_for_lease = false;
   if (kind == Kind::kOrder && boat_ != nullptr) {
     boat_->predictor.Withdraw(number);
     if (absl::IsCancelled(status)) return;  // a newer one went instead
-    boat_->timer.SendAgain();
+    if (absl::IsPermissionDenied(status)) return AskForLease();
+    if (absl::IsUnavailable(status)) boat_->timer.SendAgain();
   }
-  constexpr const char* kWhat[] = {"no boat",  "no wake",      "the boat doesn't obey",
-                                   "no crate", "no explosion", "still here",
+  constexpr const char* kWhat[] = {"no boat",
+                                   "no wake",
+                                   "the boat doesn't obey",
+                                   "the boat doesn't obey",
+                                   "no crate",
+                                   "no explosion",
+                                   "still here",
                                    "refused"};
   Say(absl::StrCat(kWhat[static_cast<std::size_t>(kind)], ": ", status.message()));
+}
+
+// The link was lost for longer than the lease lasts.
+void Skipper::AskForLease() {
+  if (std::exchange(boat_->asks_for_lease, true)) return;
+  Send(Kind::kLease, wire::TakeLease{.body_id = boat_->id, .holder = kOwner});
 }
 
 void Skipper::Follow(const WorldView& world, const Moment& moment) {

@@ -64,7 +64,16 @@ class Skipper {
   HelmReport report() const;
 
  private:
-  enum class Kind : std::uint8_t { kSpawn, kRegion, kOrder, kCrate, kExplosion, kRemove, kOther };
+  enum class Kind : std::uint8_t {
+    kSpawn,
+    kRegion,
+    kOrder,
+    kLease,
+    kCrate,
+    kExplosion,
+    kRemove,
+    kOther
+  };
   struct Boat {
     std::uint32_t id = 0, region = 0;
     std::string lease;
@@ -72,7 +81,7 @@ class Skipper {
     Helm helm = {};
     OrderTimer timer = {};
     std::int64_t launched_ns = 0;
-    bool seen = false;
+    bool seen = false, asks_for_lease = false;
     // The newest order that the server did.
     std::int64_t done_number = 0;
     Tick done_tick = 0;
@@ -82,6 +91,7 @@ class Skipper {
   void TakeOutcomes(const Moment& moment);
   void Done(Kind kind, std::int64_t number, const CommandAnswer& answer, const Moment& moment);
   void Refused(Kind kind, std::int64_t number, const absl::Status& status);
+  void AskForLease();
   void Follow(const WorldView& world, const Moment& moment);
   void ObeyKeys(const SkipperInput& input, const Outlook& outlook, const WorldView& world,
                 const Moment& moment);

@@ -16,12 +16,19 @@ constexpr std::int64_t kPatienceNs = 20'000'000'000;
 // A server that answers everything, and remembers what it was told.
 class SkipperTest : public testing::Test {
  protected:
-  absl::StatusOr<CommandAnswer> Answer(const wire::WorldCommand& command) {
+  absl::StatusOr<CommandAnswer> Answer(const wire::CommandHeader& header,
+                                       const wire::WorldCommand& command) {
     absl::MutexLock lock(&mutex_);
+    if (std::holds_alternative<wire::DriveBody>(command)) lease_shown_ = header.lease;
     commands_.push_back(command);
     if (!refusal_.ok()) return refusal_;
+    if (!orders_.ok() && std::holds_alternative<wire::DriveBody>(command)) return orders_;
     CommandAnswer answer;
     answer.tick = ++tick_;
+    if (std::holds_alternative<wire::TakeLease>(command)) {
+      answer.lease = "another";
+      orders_ = absl::OkStatus();
+    }
     if (std::holds_alternative<wire::SpawnBody>(command)) {
       answer.id = 7;
       answer.lease = "secret";
@@ -50,10 +57,11 @@ class SkipperTest : public testing::Test {
 
   absl::Mutex mutex_;
   std::vector<wire::WorldCommand> commands_;
-  absl::Status refusal_;
+  absl::Status refusal_, orders_;
+  std::string lease_shown_;
   Tick tick_ = 0;
-  CommandSender sender_{"a",
-                        [this](const auto&, const wire::WorldCommand& c) { return Answer(c); }};
+  CommandSender sender_{
+      "a", [this](const auto& header, const auto& command) { return Answer(header, command); }};
   WorldView world_;
   Skipper::Moment moment_;
   Skipper skipper_{&sender_};
@@ -117,6 +125,30 @@ TEST_F(SkipperTest, ABoatThatNeverAppearsIsGivenUp) {
   for (int n = 0; n < 60; ++n) Look({});
   EXPECT_FALSE(skipper_.report().aboard);
   EXPECT_THAT(line(), HasSubstr("no longer there"));
+}
+
+// The lease ran out while the link was lost.
+TEST_F(SkipperTest, TakesALeaseAnew) {
+  Look({.spawn = true});
+  Look({});
+  orders_ = absl::PermissionDeniedError("lease: it has run out");
+  for (int n = 0; n < 4; ++n) Look({.helm = {.ahead = true}});
+  EXPECT_EQ(Told<wire::TakeLease>().size(), 1u);
+  EXPECT_GT(Told<wire::DriveBody>().back().throttle[0], 0.0);
+  EXPECT_EQ(lease_shown_, "another");
+}
+
+// Somebody else holds the boat: it is told, and not asked again at every picture.
+TEST_F(SkipperTest, ABoatThatAnotherHoldsIsToldOnce) {
+  Look({.spawn = true});
+  Look({});
+  refusal_ = absl::PermissionDeniedError("body 7 is held by 'Anna'");
+  for (int n = 0; n < 40; ++n) Look({});
+  EXPECT_LE(Told<wire::DriveBody>().size(), 2u);
+  Look({.helm = {.ahead = true}});
+  Look({});
+  Look({});
+  EXPECT_THAT(line(), HasSubstr("held by 'Anna'"));
 }
 
 TEST_F(SkipperTest, WithoutABoatDeleteExplains) {
