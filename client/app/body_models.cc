@@ -1,6 +1,7 @@
 #include "client/app/body_models.h"
 
 #include <cstdint>
+#include <utility>
 
 #include "absl/strings/match.h"
 
@@ -18,38 +19,59 @@ std::array<float, 3> PaintOf(std::uint32_t rgb) {
 
 }  // namespace
 
-BodyModels::Model BodyModels::MakeModel(const wire::BodyInfo& info) {
+BodyModels::Look BodyModels::LookOf(const wire::BodyInfo& info) {
+  for (const auto& [word, look] : {std::pair("boat", Look::kBoat), std::pair("raft", Look::kRaft),
+                                   std::pair("buoy", Look::kBuoy)}) {
+    if (absl::StrContains(info.name, word)) return look;
+  }
+  return Look::kPlain;
+}
+
+BodyModels::Model BodyModels::MakeModel(const wire::BodyInfo& info, MeshFetcher* meshes) {
   const wire::BodyShape& shape = info.shape;
-  const auto named = [&](const char* word) { return absl::StrContains(info.name, word); };
+  const Look look = LookOf(info);
   switch (shape.kind) {
     case wire::ShapeKind::kBox:
-      if (named("boat")) {
-        return {render::BoatModel(shape.size_m.x, shape.size_m.y, shape.size_m.z),
+      if (look == Look::kBoat) {
+        return {look, render::BoatModel(shape.size_m.x, shape.size_m.y, shape.size_m.z),
                 {0, 0, -0.5 * shape.size_m.z}};
       }
-      if (named("raft")) return {render::RaftModel(shape.size_m), {}};
-      return {render::CrateModel(shape.size_m), {}};
+      if (look == Look::kRaft) return {look, render::RaftModel(shape.size_m), {}};
+      return {look, render::CrateModel(shape.size_m), {}};
     case wire::ShapeKind::kCylinder:
-      if (named("buoy")) return {render::BuoyModel(shape.radius_m, shape.length_m), {}};
-      return {render::BarrelModel(shape.radius_m, shape.length_m), {}};
+      if (look == Look::kBuoy) {
+        return {look, render::BuoyModel(shape.radius_m, shape.length_m), {}};
+      }
+      return {look, render::BarrelModel(shape.radius_m, shape.length_m), {}};
     case wire::ShapeKind::kCapsule:
-      return {render::CapsuleModel(shape.radius_m, shape.length_m), {}};
+      return {look, render::CapsuleModel(shape.radius_m, shape.length_m), {}};
     case wire::ShapeKind::kSphere:
-      return {render::BallModel(shape.radius_m), {}};
-    default:
-      return {};
+      return {look, render::BallModel(shape.radius_m), {}};
+    case wire::ShapeKind::kMesh:
+      return {look, meshes != nullptr ? meshes->Find(shape.mesh_hash) : nullptr, {}};
   }
+  return {};
+}
+
+BodyModels::Model BodyModels::ModelFor(const std::shared_ptr<const wire::BodyInfo>& info,
+                                       MeshFetcher* meshes) const {
+  const auto known = models_.find(info);
+  if (known != models_.end() && known->second.mesh != nullptr) return known->second;
+  for (const auto& [other, model] : models_) {
+    if (model.mesh != nullptr && model.look == LookOf(*info) && other->shape == info->shape) {
+      return model;
+    }
+  }
+  return MakeModel(*info, meshes);
 }
 
 std::vector<render::HullInstance> BodyModels::At(const WorldView& world, SimTime time,
+                                                 MeshFetcher* meshes,
                                                  const std::optional<wire::BodyState>& own) {
   std::vector<render::HullInstance> hulls;
-  std::map<std::shared_ptr<const wire::BodyInfo>, Model> kept;
   for (const wire::BodyTable::Body& body : world.bodies()) {
-    const auto known = models_.find(body.info);
-    const Model& model =
-        kept.emplace(body.info, known != models_.end() ? known->second : MakeModel(*body.info))
-            .first->second;
+    const Model model = ModelFor(body.info, meshes);
+    models_.insert_or_assign(body.info, model);
     if (model.mesh == nullptr) continue;
     const wire::BodyState state = own && own->id == body.newest.id ? *own : body.At(time);
     render::HullInstance& hull = hulls.emplace_back();
@@ -59,7 +81,8 @@ std::vector<render::HullInstance> BodyModels::At(const WorldView& world, SimTime
     hull.rotation_wxyz = {state.turn.w, state.turn.x, state.turn.y, state.turn.z};
     hull.colour = PaintOf(body.info->colour_rgb);
   }
-  models_ = std::move(kept);
+  // Infos of bodies that are gone are held by nobody else.
+  std::erase_if(models_, [](const auto& entry) { return entry.first.use_count() == 1; });
   return hulls;
 }
 

@@ -59,7 +59,9 @@ class ServerSource : public SeaSource, private SessionListener {
   ServerSource(std::string address, const std::string& session)
       : address_(std::move(address)),
         session_(session),
-        sender_(session, CommandsTo(ConnectTo(address_))) {
+        sender_(session, CommandsTo(ConnectTo(address_))),
+        meshes_([server = std::make_shared<RemoteServer>(ConnectTo(address_)),
+                 session](std::uint64_t hash) { return server->GetMesh(session, hash); }) {
     SessionClientOptions options;
     options.session = session;
     options.every_frame = true;  // bodies and wakes move in every one
@@ -102,6 +104,7 @@ class ServerSource : public SeaSource, private SessionListener {
   double WaterLevelAt(SimTime time) const override { return sea()->WaterLevelAt(time); }
   std::shared_ptr<const WorldView> world() const override { return world_.view(); }
   CommandSender* commands() override { return &sender_; }
+  MeshFetcher* meshes() override { return &meshes_; }
   std::vector<wire::Spray> TakeSpray() override { return world_.TakeSpray(); }
   SimTime Now() override { return client_->Now().render; }
   SourceReport Report() override {
@@ -186,6 +189,7 @@ class ServerSource : public SeaSource, private SessionListener {
   absl::Status status_ ABSL_GUARDED_BY(mutex_);
   CommandSender sender_;
   std::unique_ptr<TerrainFetcher> terrain_;
+  MeshFetcher meshes_;
   std::unique_ptr<SessionClient> client_;  // last: stops before what it calls is gone
 };
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
+#include "client/app/mesh_fetcher.h"
 #include "client/model/local_world.h"
 #include "client/net/command_sender.h"
 #include "common/base/sim_time.h"
@@ -36,6 +37,8 @@ class SeaSource {
   virtual std::shared_ptr<const WorldView> world() const { return nullptr; }
   /// The way for commands; null: there is none. Lives as long as this.
   virtual CommandSender* commands() { return nullptr; }
+  /// Hulls from files; null: there are none. Lives as long as this.
+  virtual MeshFetcher* meshes() { return nullptr; }
   /// Spray since the last call.
   virtual std::vector<wire::Spray> TakeSpray() { return {}; }
   /// The moment to draw now.

@@ -64,7 +64,7 @@ class Scene {
     frame_.camera = cockpit.At(0.0);
     if (const std::shared_ptr<const WorldView> world = source.world(); world != nullptr) {
       builder_.SetInteraction(world->shared_interaction());
-      frame_.hulls = models_.At(*world, time, cockpit.own());
+      frame_.hulls = models_.At(*world, time, source.meshes(), cockpit.own());
       spray_.Add(source.TakeSpray(), world->time());
       frame_.spray = spray_.At(time);
     }

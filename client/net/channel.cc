@@ -6,6 +6,7 @@
 
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_format.h"
+#include "common/base/limits.h"
 
 namespace onesea::client {
 namespace {
@@ -47,6 +48,8 @@ ChannelFactory ConnectTo(std::string address) {
     // A reader that falls behind wants the newest frame: small windows leave the backlog to the
     // server, which drops it.
     arguments.SetInt(GRPC_ARG_HTTP2_BDP_PROBE, 0);
+    // Hulls come in one piece (GetMesh).
+    arguments.SetMaxReceiveMessageSize(static_cast<int>(kHullFileBytesMax) + (1 << 20));
     return grpc::CreateCustomChannel(address, grpc::InsecureChannelCredentials(), arguments);
   };
 }

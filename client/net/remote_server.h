@@ -109,6 +109,8 @@ class RemoteServer {
   absl::StatusOr<CommandAnswer> Command(const wire::CommandHeader& header,
                                         const wire::WorldCommand& command);
   absl::StatusOr<BodyList> ListBodies(const std::string& session);
+  /// The file of a hull, by BodyShape::mesh_hash; at most kHullFileBytesMax. NotFound.
+  absl::StatusOr<std::string> GetMesh(const std::string& session, std::uint64_t hash);
 
   absl::StatusOr<StateHashes> GetStateHash(const std::string& session);
   /// The server's monotonic clock [ns].

@@ -76,6 +76,15 @@ absl::StatusOr<CommandAnswer> RemoteServer::Command(const wire::CommandHeader& h
   return std::visit([&](const auto& one) { return call(one, MethodOf(one)); }, command);
 }
 
+absl::StatusOr<std::string> RemoteServer::GetMesh(const std::string& session, std::uint64_t hash) {
+  v1::GetMeshRequest request;
+  request.set_session(session);
+  request.set_hash(hash);
+  v1::GetMeshResponse response;
+  ONESEA_RETURN_IF_ERROR(impl_->Call(&v1::OneSea::Stub::GetMesh, request, &response));
+  return std::move(*response.mutable_file());
+}
+
 absl::StatusOr<BodyList> RemoteServer::ListBodies(const std::string& session) {
   v1::ListBodiesRequest request;
   request.set_session(session);

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "common/base/check.h"
-#include "server/world/hull_file.h"
+#include "common/ingest/mesh_file.h"
 
 namespace onesea::world {
 namespace {
@@ -27,7 +27,7 @@ absl::StatusOr<BodyShape> ShapeOf(const wire::BodyShape& shape) {
   out.radius_m = shape.radius_m;
   out.length_m = shape.length_m;
   if (shape.kind == wire::ShapeKind::kMesh) {
-    ONESEA_ASSIGN_OR_RETURN(out.mesh, ReadHullFile(shape.mesh));
+    ONESEA_ASSIGN_OR_RETURN(out.mesh, ingest::ReadMeshFile(shape.mesh));
   }
   return out;
 }

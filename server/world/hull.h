@@ -6,17 +6,12 @@
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
+#include "common/base/triangle_mesh.h"
 #include "common/base/vec.h"
 #include "server/world/rigid_math.h"
 
 /// Hulls: closed triangle meshes in the body frame (x forward, y left, z up, origin anywhere).
 namespace onesea::world {
-
-struct TriangleMesh {
-  std::vector<Vec3d> vertices;  ///< [m]
-  /// Corners counter-clockwise seen from outside.
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-};
 
 /// A uniform solid inside a closed mesh.
 struct SolidProperties {
@@ -39,9 +34,5 @@ SolidProperties ComputeSolid(const TriangleMesh& mesh);
 /// edges, neighbours of opposite sense, faces pointing inwards, no volume. Self-intersections are
 /// not looked for: the displaced volume then counts the overlap twice.
 absl::Status ValidateMesh(const TriangleMesh& mesh);
-
-/// Joins vertices of equal coordinates and drops triangles that lose a corner by it: STL files
-/// repeat every vertex.
-void Weld(TriangleMesh& mesh);
 
 }  // namespace onesea::world

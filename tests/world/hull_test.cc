@@ -11,8 +11,8 @@
 #include "absl/strings/str_cat.h"
 #include "common/base/limits.h"
 #include "common/ingest/file_bytes.h"
+#include "common/ingest/mesh_file.h"
 #include "common/sea/constants.h"
-#include "server/world/hull_file.h"
 #include "server/world/hull_shapes.h"
 
 namespace onesea::world {
@@ -112,7 +112,7 @@ TEST(Hull, RefusalsSayWhatIsWrong) {
 TEST(HullFile, ReadsABinaryStlOfKnownVolume) {
   const auto bytes = ingest::ReadFileBytes("tests/data/bodies/viking_ship.stl");
   ASSERT_TRUE(bytes.ok()) << bytes.status();
-  const auto mesh = ReadHullFile(*bytes);
+  const auto mesh = ingest::ReadMeshFile(*bytes);
   ASSERT_TRUE(mesh.ok()) << mesh.status();
   ASSERT_TRUE(ValidateMesh(*mesh).ok()) << ValidateMesh(*mesh);
   EXPECT_NEAR(ComputeSolid(*mesh).volume_m3, 0.736426, 2e-6);
@@ -133,13 +133,13 @@ std::string AsTextStl(const TriangleMesh& mesh) {
 
 TEST(HullFile, ReadsTextStlAndObj) {
   const TriangleMesh box = BoxMesh({4, 2, 1}, 2);
-  const auto text = ReadHullFile(AsTextStl(box));
+  const auto text = ingest::ReadMeshFile(AsTextStl(box));
   ASSERT_TRUE(text.ok()) << text.status();
   EXPECT_TRUE(ValidateMesh(*text).ok()) << ValidateMesh(*text);
   EXPECT_NEAR(ComputeSolid(*text).volume_m3, 8.0, 1e-9);
 
   // Quads, relative indices, and indices with texture and normals.
-  const auto cube = ReadHullFile(
+  const auto cube = ingest::ReadMeshFile(
       "# cube\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\nvn 0 0 1\n"
       "o cube\nf 1 4 3 2\nf -4 -3 -2 -1\nf 1//1 2//1 6//1 5//1\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n");
   ASSERT_TRUE(cube.ok()) << cube.status();
@@ -150,16 +150,16 @@ TEST(HullFile, ReadsTextStlAndObj) {
 // Whatever the bytes are: a status or a mesh that ValidateMesh judges, never a crash.
 TEST(HullFile, DamagedFilesAreRefusedOrJudged) {
   const std::string text = AsTextStl(BoxMesh({1, 1, 1}, 1));
-  EXPECT_FALSE(ReadHullFile("solid\nfacet\nouter loop\nvertex 1 2\n").ok());
-  EXPECT_FALSE(ReadHullFile("solid\nvertex 0 0 0\nvertex 1 0 0\nendloop\n").ok());
-  EXPECT_FALSE(ReadStl("xyz").ok());
-  EXPECT_FALSE(ReadStl(std::string(200, '\x7f')).ok());
-  EXPECT_FALSE(ReadHullFile(std::string(kHullFileBytesMax + 1, ' ')).ok());
+  EXPECT_FALSE(ingest::ReadMeshFile("solid\nfacet\nouter loop\nvertex 1 2\n").ok());
+  EXPECT_FALSE(ingest::ReadMeshFile("solid\nvertex 0 0 0\nvertex 1 0 0\nendloop\n").ok());
+  EXPECT_FALSE(ingest::ReadStl("xyz").ok());
+  EXPECT_FALSE(ingest::ReadStl(std::string(200, '\x7f')).ok());
+  EXPECT_FALSE(ingest::ReadMeshFile(std::string(kHullFileBytesMax + 1, ' ')).ok());
   for (const char* obj :
        {"f 1 2 3\n", "v 0 0 0\nf 1 2 3\n", "v nan nan nan\nf 1 1 1\n", "f\n",
         "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3 4 5 6\n", "f -9 -8 -7\n", "v\nf 0 0 0\n",
         "mtllib none.mtl\nusemtl x\n", "", "\xff\xfe", "f 1 2 99999999999999999\n"}) {
-    const auto mesh = ReadHullFile(obj);
+    const auto mesh = ingest::ReadMeshFile(obj);
     EXPECT_FALSE(mesh.ok() && ValidateMesh(*mesh).ok()) << obj;
   }
   std::uint64_t random = 7;
@@ -169,7 +169,7 @@ TEST(HullFile, DamagedFilesAreRefusedOrJudged) {
       random = random * 6364136223846793005u + 1442695040888963407u;
       damaged[(random >> 33) % damaged.size()] = static_cast<char>(random >> 56);
     }
-    const auto mesh = ReadHullFile(damaged);
+    const auto mesh = ingest::ReadMeshFile(damaged);
     if (mesh.ok()) (void)ValidateMesh(*mesh);
   }
 }

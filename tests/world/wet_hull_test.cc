@@ -8,9 +8,9 @@
 #include <sstream>
 
 #include "common/ingest/file_bytes.h"
+#include "common/ingest/mesh_file.h"
 #include "common/sea/constants.h"
 #include "hwy/targets.h"
-#include "server/world/hull_file.h"
 #include "server/world/hull_shapes.h"
 #include "server/world/hydrostatics.h"
 #include "tests/world/regular_wave_patch.h"
@@ -121,7 +121,7 @@ TEST(WetHull, HullsOfKnownDisplacement) {
 
   const auto bytes = ingest::ReadFileBytes("tests/data/bodies/viking_ship.stl");
   ASSERT_TRUE(bytes.ok());
-  const WetForces viking = At(WetHull(ReadStl(*bytes).value(), {0, 0, 0.3}), {});
+  const WetForces viking = At(WetHull(ingest::ReadStl(*bytes).value(), {0, 0, 0.3}), {});
   EXPECT_NEAR(viking.volume_m3, 0.405229, 1e-6);
   EXPECT_NEAR(viking.volume_centre_m.z + 0.3, 0.182540, 1e-6);
 

@@ -1,4 +1,4 @@
-#include "server/world/hull_file.h"
+#include "common/ingest/mesh_file.h"
 
 #include <bit>
 #include <cmath>
@@ -16,7 +16,7 @@
 
 #include "tiny_obj_loader.h"
 
-namespace onesea::world {
+namespace onesea::ingest {
 namespace {
 
 constexpr std::size_t kStlHeaderBytes = 80;
@@ -160,8 +160,8 @@ absl::StatusOr<TriangleMesh> ReadObj(absl::string_view bytes) {
   return mesh;
 }
 
-absl::StatusOr<TriangleMesh> ReadHullFile(absl::string_view bytes) {
+absl::StatusOr<TriangleMesh> ReadMeshFile(absl::string_view bytes) {
   return IsBinaryStl(bytes) || LooksLikeTextStl(bytes) ? ReadStl(bytes) : ReadObj(bytes);
 }
 
-}  // namespace onesea::world
+}  // namespace onesea::ingest
