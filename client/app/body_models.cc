@@ -33,7 +33,8 @@ BodyModels::Model BodyModels::MakeModel(const wire::BodyInfo& info, MeshFetcher*
   switch (shape.kind) {
     case wire::ShapeKind::kBox:
       if (look == Look::kBoat) {
-        return {look, render::BoatModel(shape.size_m.x, shape.size_m.y, shape.size_m.z),
+        return {look,
+                render::BoatModel(shape.size_m.x, shape.size_m.y, shape.size_m.z),
                 {0, 0, -0.5 * shape.size_m.z}};
       }
       if (look == Look::kRaft) return {look, render::RaftModel(shape.size_m), {}};

@@ -29,8 +29,7 @@ absl::StatusOr<render::SharedHullMesh> MeshOfFile(const std::string& file, std::
   return render::PlainModel(mesh.vertices, mesh.triangles);
 }
 
-MeshFetcher::MeshFetcher(Fetch fetch)
-    : fetch_(std::move(fetch)), thread_([this] { Run(); }) {}
+MeshFetcher::MeshFetcher(Fetch fetch) : fetch_(std::move(fetch)), thread_([this] { Run(); }) {}
 
 MeshFetcher::~MeshFetcher() {
   {

@@ -108,14 +108,13 @@ absl::StatusOr<HullPass> HullPass::Create() {
   std::array<ShaderProgram, 8> programs;
   for (std::size_t n = 0; n < programs.size(); ++n) {
     auto program =
-        n < 6 ? ShaderProgram::Build({"frame.glsl", "hulls.vert.glsl"},
-                                     {"frame.glsl", "sky.glsl", "hulls.frag.glsl"},
-                                     {kKinds[n % 3][0], kKinds[n % 3][1],
+        n < 6    ? ShaderProgram::Build({"frame.glsl", "hulls.vert.glsl"},
+                                        {"frame.glsl", "sky.glsl", "hulls.frag.glsl"},
+                                        {kKinds[n % 3][0], kKinds[n % 3][1],
                                       n < 3 ? "PLAIN 0" : "PLAIN 1", "kNearest 0.2"})
-        : n == 6
-            ? ShaderProgram::Build({"frame.glsl", "attenuation.glsl", "hulls_water.vert.glsl"},
-                                   {"hulls_water.frag.glsl"}, {"kHulls 1024"})
-            : ShaderProgram::Build({"fullscreen.vert.glsl"}, {"hulls_place.frag.glsl"});
+        : n == 6 ? ShaderProgram::Build({"frame.glsl", "attenuation.glsl", "hulls_water.vert.glsl"},
+                                        {"hulls_water.frag.glsl"}, {"kHulls 1024"})
+                 : ShaderProgram::Build({"fullscreen.vert.glsl"}, {"hulls_place.frag.glsl"});
     if (!program.ok()) return program.status();
     programs[n] = std::move(*program);
   }
