@@ -12,19 +12,47 @@
 namespace onesea::render {
 namespace {
 
+// Paint times area, summed.
+struct PaintSum {
+  glm::vec3 albedo{0.0f};
+  float gloss = 0.0f, tinted = 0.0f, area = 0.0f;
+
+  void Add(const HullCorner& corner, float around) {
+    area += around;
+    albedo += around * glm::make_vec3(corner.albedo.data());
+    gloss += around * corner.gloss;
+    tinted += around * corner.tinted;
+  }
+};
+
+// Corners that become one, and the paint around them.
 struct Cluster {
   glm::vec3 sum{0.0f};
   float count = 0.0f;
+  PaintSum paint;
   glm::vec3 place() const { return sum / count; }
 };
 
-// Painted sums over the triangles that become one.
+// Triangles that become one.
 struct Face {
-  std::array<std::uint32_t, 3> clusters;
   std::array<glm::vec3, 3> normals{};
-  glm::vec3 albedo{0.0f};
-  float gloss = 0.0f, tinted = 0.0f, area = 0.0f;
+  PaintSum paint;
 };
+
+// Half the triangle's own paint, half of what is around the corner: stripes that are folded away
+// must not give way to the ones beside them, nor windows to walls.
+HullCorner PaintedCorner(const Cluster& cluster, const Face& face, const glm::vec3& normal) {
+  const auto mean = [&](auto part) {
+    return 0.5f * (part(face.paint) / face.paint.area + part(cluster.paint) / cluster.paint.area);
+  };
+  const glm::vec3 at = cluster.place();
+  const glm::vec3 albedo = mean([](const PaintSum& p) { return p.albedo; });
+  return {{at.x, at.y, at.z},
+          {normal.x, normal.y, normal.z},
+          {albedo.r, albedo.g, albedo.b},
+          mean([](const PaintSum& p) { return p.gloss; }),
+          mean([](const PaintSum& p) { return p.tinted; })};
+}
 
 glm::vec3 PlaceOf(const HullCorner& corner) { return glm::make_vec3(corner.position_m.data()); }
 
@@ -51,36 +79,26 @@ HullMesh CoarserHull(const HullMesh& mesh, float cell_m) {
   std::map<std::array<std::uint32_t, 3>, Face> faces;
   for (std::size_t t = 0; t + 2 < mesh.corners.size(); t += 3) {
     std::array<std::uint32_t, 3> key{cluster_of[t], cluster_of[t + 1], cluster_of[t + 2]};
+    const glm::vec3 a = PlaceOf(mesh.corners[t]), b = PlaceOf(mesh.corners[t + 1]);
+    const float area = 0.5f * glm::length(glm::cross(b - a, PlaceOf(mesh.corners[t + 2]) - a));
+    for (std::size_t n = 0; n < 3; ++n) clusters[key[n]].paint.Add(mesh.corners[t + n], area);
     if (key[0] == key[1] || key[1] == key[2] || key[2] == key[0]) continue;
     const auto first =
         static_cast<std::size_t>(std::min_element(key.begin(), key.end()) - key.begin());
     std::rotate(key.begin(), key.begin() + static_cast<std::ptrdiff_t>(first), key.end());
-    const glm::vec3 a = PlaceOf(mesh.corners[t]), b = PlaceOf(mesh.corners[t + 1]);
-    const float area = 0.5f * glm::length(glm::cross(b - a, PlaceOf(mesh.corners[t + 2]) - a));
     Face& face = faces[key];
-    face.clusters = key;
-    face.area += area;
     for (std::size_t n = 0; n < 3; ++n) {
-      const HullCorner& corner = mesh.corners[t + (n + first) % 3];
-      face.normals[n] += area * glm::make_vec3(corner.normal.data());
-      face.albedo += area / 3.0f * glm::make_vec3(corner.albedo.data());
-      face.gloss += area / 3.0f * corner.gloss;
-      face.tinted += area / 3.0f * corner.tinted;
+      face.paint.Add(mesh.corners[t + n], area / 3.0f);
+      face.normals[n] += area * glm::make_vec3(mesh.corners[t + (n + first) % 3].normal.data());
     }
   }
 
   HullMesh coarse;
   for (const auto& [key, face] : faces) {
-    if (!(face.area > 0.0f)) continue;
+    if (!(face.paint.area > 0.0f)) continue;
     for (std::size_t n = 0; n < 3; ++n) {
-      const glm::vec3 at = clusters[key[n]].place();
       const glm::vec3 normal = glm::normalize(face.normals[n] + glm::vec3(1e-12f));
-      const glm::vec3 albedo = face.albedo / face.area;
-      coarse.corners.push_back({{at.x, at.y, at.z},
-                                {normal.x, normal.y, normal.z},
-                                {albedo.r, albedo.g, albedo.b},
-                                face.gloss / face.area,
-                                face.tinted / face.area});
+      coarse.corners.push_back(PaintedCorner(clusters[key[n]], face, normal));
     }
   }
   return coarse;

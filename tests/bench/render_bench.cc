@@ -26,6 +26,7 @@
 ABSL_FLAG(int, frames, 12, "Pictures per size; the first is left out");
 ABSL_FLAG(bool, harbour, false, "With two wakes, new in each picture, and eight bodies");
 ABSL_FLAG(int, bodies, 0, "With --harbour: as many more bodies, 20 to 300 m away");
+ABSL_FLAG(bool, shore, false, "Before an island, with the sea lower over its shelf");
 ABSL_FLAG(int, samples, 0, "Samples of the geometry: 1, 4 or 0, as the driver can afford");
 
 namespace onesea::render {
@@ -80,6 +81,30 @@ void Measure(Renderer& renderer, RenderFrame& frame, TestSea& sea, int width, in
   std::printf("  frame      wall %7.1f ms   (passes not separated)\n", Median(whole));
 }
 
+// An island of 30 m in water of 25 m, 350 m away, in samples 5 m apart.
+void AddShore(RenderFrame& frame) {
+  auto terrain = std::make_shared<sea::Terrain>();
+  auto factors = std::make_shared<sea::AttenuationGrid>();
+  constexpr int kSide = 401;
+  terrain->west_m = factors->west_m = -500.0;
+  terrain->south_m = factors->south_m = -1000.0;
+  terrain->cell_m = factors->cell_m = 5.0;
+  terrain->columns = terrain->rows = factors->columns = factors->rows = kSide;
+  factors->planes = 5;
+  for (int j = 0; j < kSide; ++j) {
+    for (int i = 0; i < kSide; ++i) {
+      const double r = std::hypot(-500.0 + 5.0 * i - 600.0, -1000.0 + 5.0 * j);
+      const double z = -25.0 + 55.0 * std::exp(-r * r / (2.0 * 220.0 * 220.0)) +
+                       2.0 * std::sin(0.05 * i) * std::sin(0.07 * j);
+      terrain->elevation_m.push_back(static_cast<float>(z));
+      const auto factor = static_cast<float>(std::clamp(-z / 5.0, 0.0, 1.0));
+      factors->factor.insert(factors->factor.end(), 5, factor);
+    }
+  }
+  frame.terrain = terrain;
+  frame.attenuation = factors;
+}
+
 int Main(int frames) {
   auto context = OffscreenContext::Create();
   if (!context.ok()) {
@@ -109,6 +134,7 @@ int Main(int frames) {
       frame.hulls.push_back(body);
     }
   }
+  if (absl::GetFlag(FLAGS_shore)) AddShore(frame);
   for (const auto& [width, height] : {std::pair{640, 360}, std::pair{1280, 720}}) {
     Measure(**renderer, frame, sea, width, height, frames);
   }

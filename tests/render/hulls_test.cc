@@ -226,7 +226,7 @@ TEST_F(HullsTest, FarHullsKeepTheirPlaceInThePicture) {
     return static_cast<double>(std::count(m.begin(), m.end(), true));
   };
   const double ratio = std::pow(std::tan(0.5 * kFov) / std::tan(0.1), 2);
-  EXPECT_GT(count(far), 20.0);
+  EXPECT_GT(count(far), 10.0);
   EXPECT_NEAR(count(far) * ratio, count(near), 0.6 * count(near));
 }
 

@@ -21,8 +21,8 @@ constexpr float kLevelCells[] = {36.0f, 18.0f, 9.0f, 4.5f};
 // And are drawn when a cell covers at most so many pixels; in the mirror, which has half as many
 // and is blurred by the waves, more.
 // Hulls of fewer pixels are shaded without gloss and stains.
-constexpr float kPlainPixels = 80.0f;
-constexpr float kCellPixels = 4.0f, kImageCellPixels = 10.0f;
+constexpr float kPlainPixels = 44.0f;
+constexpr float kCellPixels = 2.2f, kImageCellPixels = 4.0f;
 
 // `zero` is the eye's place on the water level.
 glm::mat4 Placement(const HullInstance& hull, const Vec3d& zero) {

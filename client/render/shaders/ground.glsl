@@ -28,6 +28,7 @@ Ground ground_of(vec2 xy, vec4 ground, float footprint_log2) {
   vec4 middle = grain_at(xy.yx, 37.0, footprint_log2);
   vec4 fine = grain_at(xy, 331.0, footprint_log2);
   vec4 stones = grain_at(xy.yx, 127.0, footprint_log2);
+  vec4 tiny = grain_at(xy.yx, 1237.0, footprint_log2);
   float steep = length(ground.yz);
   float rough = 0.5 * middle.r + 0.3 * fine.r + 0.2 * broad.r;
 
@@ -38,16 +39,18 @@ Ground ground_of(vec2 xy, vec4 ground, float footprint_log2) {
   float rock = max(smoothstep(0.34, 0.52, steep + 0.24 * (rough - 0.5)), wall);
   float wash = 0.35 + 0.25 * water_kd.w;  // height that waves reach [m]
   float green = smoothstep(1.1, 2.6, (height - wash) * (1.0 - 0.4 * steep) + 2.0 * (middle.r - 0.5) + (broad.r - 0.5));
-  vec3 sand = mix(vec3(0.36, 0.29, 0.19), vec3(0.50, 0.42, 0.30), 0.35 * broad.r + 0.35 * middle.r + 0.3 * fine.r);
+  vec3 sand = mix(vec3(0.36, 0.29, 0.19), vec3(0.50, 0.42, 0.30), 0.36 * broad.r + 0.36 * middle.r + 0.18 * stones.r + 0.10 * fine.r);
   vec3 grass = mix(vec3(0.048, 0.066, 0.020), vec3(0.140, 0.130, 0.050), 0.55 * broad.r + 0.45 * middle.r);
   // Bushes in the hollows of the noise.
   float bush = 0.45 * middle.r + 0.30 * broad.r + 0.25 * stones.r;
   grass = mix(grass, vec3(0.022, 0.034, 0.014), smoothstep(0.56, 0.66, bush) * smoothstep(2.0, 7.0, height));
   grass *= 0.62 + 0.75 * fine.r;
+  // Grains, pebbles and what the last waves left.
+  sand *= (0.84 + 0.32 * tiny.r) * (1.0 - 0.3 * smoothstep(0.85, 1.0, fine.r) * smoothstep(0.7, 1.0, tiny.r));
   // Boulders with dark gaps between them.
-  float gap = 0.65 * smoothstep(0.55, 0.95, fine.a) + 0.35 * smoothstep(0.6, 0.95, stones.a);
+  float gap = 0.6 * smoothstep(0.5, 0.95, tiny.a) + 0.4 * smoothstep(0.6, 0.95, fine.a);
   vec3 stone = mix(vec3(0.130, 0.122, 0.110), vec3(0.270, 0.252, 0.225), 0.4 * fine.r + 0.3 * middle.r + 0.3 * stones.r);
-  stone *= 1.1 - 0.8 * gap;
+  stone *= (1.05 - 0.55 * gap) * (0.8 + 0.4 * tiny.r);
   // Seabed: weed in patches on the sand, none where waves stir it.
   float weed = smoothstep(0.50, 0.80, 0.42 * middle.r + 0.38 * broad.r + 0.20 * stones.r) * smoothstep(1.5, 4.0, -height);
   sand = mix(sand, vec3(0.075, 0.080, 0.048), 0.75 * weed);
@@ -62,7 +65,7 @@ Ground ground_of(vec2 xy, vec4 ground, float footprint_log2) {
 
   // Relief: pebbles and ripples of sand, tufts, boulders.
   float bumps = mix(mix(0.10, 0.45, green), 0.9, rock);
-  vec2 slope = ground.yz + bumps * (0.9 * (middle.gb - 0.502).yx + 1.3 * (fine.gb - 0.502) + 0.9 * (stones.gb - 0.502).yx);
+  vec2 slope = ground.yz + bumps * (0.9 * (middle.gb - 0.502).yx + 1.3 * (fine.gb - 0.502) + 0.9 * (stones.gb - 0.502).yx + 1.2 * (tiny.gb - 0.502).yx);
   return Ground(albedo, normalize(vec3(-slope, 1.0)), wet);
 }
 

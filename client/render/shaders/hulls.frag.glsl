@@ -75,7 +75,12 @@ void main() {
   float lit = max(dot(n, sun_direction.xyz), 0.0);
   vec3 colour = albedo / kPi * (light + sun_irradiance.rgb * lit);
 
-#if !PLAIN
+#if PLAIN
+  // Varnish mirrors some of the sky.
+  float grazing = 1.0 - clamp(dot(n, v), 0.0, 1.0);
+  float mirrors = gloss_above.x * (0.035 + 0.5 * gloss_above.x * grazing * grazing * grazing);
+  colour = mix(colour, sky_irradiance.rgb * (0.8 / kPi), mirrors);
+#else
   // Varnish: a mirror image of sky or sea, stronger at grazing angles; the sun's, spread by gloss.
   float cosine = clamp(dot(n, v), 0.0, 1.0);
   float grazing = 1.0 - cosine;

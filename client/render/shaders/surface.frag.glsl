@@ -230,15 +230,38 @@ Shallow shallow_at(vec2 place, float distance, vec3 direction, vec3 n, float foo
   return s;
 }
 
-// Share of the surface that breaks because the water is shallow: most of it on the crests.
-float surf_at(vec2 xy, float depth, Waves w) {
+// Share of the surface that breaks because the water is shallow: most of it on the crests, and the
+// last of it as a seam where the water ends. Where waves are as high as the depth lets them be they
+// break: see kBreakerIndex in common/sea/shoaling.h.
+float surf_at(float depth, Waves w) {
 #if ATTENUATED
   float hs = w.hs;
 #else
   float hs = water_kd.w;
 #endif
-  float breaking = 1.0 - smoothstep(0.1, 1.0, depth / max(1.6 * hs, 0.05));
-  return 0.75 * breaking * smoothstep(0.03, 0.3, hs) * (0.4 + 0.6 * smoothstep(-0.2, 0.6, -w.squeeze * 4.0));
+  float breaking = (1.0 - smoothstep(1.7, 2.8, depth / max(hs, 0.01))) * smoothstep(0.04, 0.3, hs);
+  float crest = smoothstep(-0.1, 0.3, -4.0 * w.squeeze);
+  float seam = (1.0 - smoothstep(0.02, 0.10 + 0.1 * water_kd.w, depth)) * smoothstep(0.1, 0.6, water_kd.w);
+  return max(breaking * (0.25 + 0.55 * crest), 0.42 * seam);
+}
+
+// Land in the water's mirror: where the ground rises above the reflected ray, at a few distances.
+vec3 with_land(vec3 sky, vec2 place, float height, vec3 r, float deviation) {
+  float run = max(length(r.xy), 1e-3);
+  vec2 ahead = r.xy / run;
+  float slope = abs(r.z) / run, hidden = 0.0, tall = 0.0;
+  for (int n = 0; n < 4; ++n) {
+    float far = 5.0 * float(1 << (2 * n)), lod = max(log2(far * 0.25) - ground_noise.z, 0.0);
+    float rise = ground_at(place + ahead * far, lod).x - height;
+    float over = rise - slope * far;
+    hidden = max(hidden, smoothstep(-0.5, 0.5, over / (far * (0.05 + deviation))) * smoothstep(0.2, 1.0, rise));
+    tall = max(tall, rise);
+  }
+  vec3 albedo = mix(vec3(0.17, 0.155, 0.125), vec3(0.085, 0.09, 0.04), smoothstep(2.5, 8.0, tall));
+  // Seen from below it is in the sky's light, and in the sun's when that is behind the eye.
+  float lit = 0.30 - 0.25 * dot(ahead, sun_direction.xy);
+  vec3 land = albedo / kPi * (0.75 * sky_irradiance.rgb + sun_irradiance.rgb * lit);
+  return mix(sky, land, hidden);
 }
 #endif
 
@@ -271,6 +294,10 @@ vec3 shade_above(vec2 xy, vec2 place, float distance, float stretch, vec3 direct
   r.z = abs(r.z) + 0.01;
   vec3 reflected = sky_at(normalize(r), 0.7 * f.deviation) * mix(0.45, 1.0, open);
 
+#if TERRAIN
+  float height = eye.z + direction.z * distance;
+  reflected = with_land(reflected, place, height, normalize(r), f.deviation);
+#endif
 #if HULLS
   // Three facets of the many in a pixel.
   vec3 from = eye.xyz + direction * distance;
@@ -297,7 +324,7 @@ vec3 shade_above(vec2 xy, vec2 place, float distance, float stretch, vec3 direct
 #if TERRAIN
   Shallow shallow = shallow_at(place, distance, direction, n, log2(footprint));
   body = mix(body, shallow.bottom, shallow.shown);
-  w.churned += surf_at(xy, shallow.depth, w);
+  w.churned += surf_at(shallow.depth, w);
 #endif
   Foam foam = foam_at(xy, w, fold, log2(footprint));
   body += foam_irradiance.rgb * foam.bubbles;
