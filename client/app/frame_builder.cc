@@ -30,16 +30,13 @@ void FrameBuilder::Adopt(const std::shared_ptr<const sea::Components>& component
 void FrameBuilder::FillWeather(render::RenderFrame& frame) const {
   const sea::Recipe& recipe = components_->recipe;
   const std::vector<double> weights = sea::WeatherWeights(recipe, time_);
-  double east = 0.0, north = 0.0, speed = 0.0, unresolved_mss = 0.0;
+  double unresolved_mss = 0.0;
   for (std::size_t n = 0; n < weights.size(); ++n) {
-    const sea::SeaState& sea = recipe.timeline[n].sea;
-    speed += weights[n] * sea.wind_speed_m_per_s;
-    east += weights[n] * sea.wind_speed_m_per_s * std::cos(sea.wind_to_rad);
-    north += weights[n] * sea.wind_speed_m_per_s * std::sin(sea.wind_to_rad);
     unresolved_mss += weights[n] * components_->unresolved_mss[n];
   }
-  frame.weather.wind_speed_m_per_s = speed;
-  frame.weather.wind_to_rad = std::atan2(north, east);
+  const Vec2d wind = sea::WindAt(recipe, time_);
+  frame.weather.wind_speed_m_per_s = Norm(wind);
+  frame.weather.wind_to_rad = std::atan2(wind.y, wind.x);
   frame.unresolved_mss = unresolved_mss;
   frame.regular_waves.clear();
   for (const sea::RegularComponent& wave : components_->regular) {

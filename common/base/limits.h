@@ -54,7 +54,9 @@ inline constexpr std::int64_t kRegionCellsMax =
     4 * 1024 * 1024;                             // of one session; 56 MB at a viewer
 inline constexpr double kHeightStepMinM = 1e-4;  // heights on the wire reach 32767 steps
 inline constexpr double kHeightStepMaxM = 0.1;
-inline constexpr int kObstaclesMax = 256;  // of one session
+inline constexpr int kFramesPerUpdateMax = 60;
+inline constexpr double kRainMaxPerM2S = 20.0;  // a tick of 256² cells of 0.5 m: 5500 drops
+inline constexpr int kObstaclesMax = 256;       // of one session
 inline constexpr int kObstacleCornersMax = 64;
 inline constexpr double kExplosionMaxJ = 1e10;  // 2.4 t of TNT
 inline constexpr int kSprayMax = 256;           // events of one frame

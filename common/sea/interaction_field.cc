@@ -24,25 +24,29 @@ struct Spot {
   double x = 0.0, y = 0.0;  // beyond it, in cells, [0, 1)
 };
 
-double Read(const InteractionField& field, std::span<const float> values, int column, int row) {
-  if (column < 0 || row < 0 || column >= field.cells.columns || row >= field.cells.rows) {
+double Read(const CellRect& cells, std::span<const float> values, int column, int row) {
+  if (column < 0 || row < 0 || column >= cells.columns || row >= cells.rows) {
     return 0.0;
   }
-  return values[static_cast<std::size_t>(row) * field.cells.columns + column];
+  return values[static_cast<std::size_t>(row) * cells.columns + column];
 }
 
 // The 4 x 4 values around a spot, row by row.
 struct Neighbours {
-  Neighbours(const InteractionField& field, std::span<const float> values, const Spot& spot) {
+  Neighbours(const CellRect& cells, std::span<const float> values, const Spot& spot) {
     const int west = spot.column - 1, south = spot.row - 1;
     const bool inside =
-        west >= 0 && south >= 0 && west + 4 <= field.cells.columns && south + 4 <= field.cells.rows;
+        west >= 0 && south >= 0 && west + 4 <= cells.columns && south + 4 <= cells.rows;
     for (int j = 0; j < 4; ++j) {
       for (int i = 0; i < 4; ++i) {
-        at[j][i] =
-            inside ? values[static_cast<std::size_t>(south + j) * field.cells.columns + west + i]
-                   : Read(field, values, west + i, south + j);
+        at[j][i] = inside ? values[static_cast<std::size_t>(south + j) * cells.columns + west + i]
+                          : Read(cells, values, west + i, south + j);
       }
+    }
+  }
+  void Add(const Neighbours& other) {
+    for (int j = 0; j < 4; ++j) {
+      for (int i = 0; i < 4; ++i) at[j][i] += other.at[j][i];
     }
   }
   double at[4][4];
@@ -69,20 +73,20 @@ Vec2d Slope(const Neighbours& cells, const Weights& x, const Weights& y) {
   return {Along(y.value, slopes), Along(y.slope, rows)};
 }
 
-double Bilinear(const InteractionField& field, std::span<const float> values, const Spot& spot) {
+double Bilinear(const CellRect& cells, std::span<const float> values, const Spot& spot) {
   const auto along = [&](int row) {
-    const double west = Read(field, values, spot.column, row);
-    return west + spot.x * (Read(field, values, spot.column + 1, row) - west);
+    const double west = Read(cells, values, spot.column, row);
+    return west + spot.x * (Read(cells, values, spot.column + 1, row) - west);
   };
   const double south = along(spot.row);
   return south + spot.y * (along(spot.row + 1) - south);
 }
 
 // False beyond the field's reach; written so that NaN is.
-bool Locate(const InteractionField& field, Vec2d place, Spot& spot) {
-  const double u = place.x / field.cells.cell_m - static_cast<double>(field.cells.west);
-  const double v = place.y / field.cells.cell_m - static_cast<double>(field.cells.south);
-  if (!(u > -2.0 && v > -2.0 && u < field.cells.columns + 1 && v < field.cells.rows + 1)) {
+bool Locate(const CellRect& cells, Vec2d place, Spot& spot) {
+  const double u = place.x / cells.cell_m - static_cast<double>(cells.west);
+  const double v = place.y / cells.cell_m - static_cast<double>(cells.south);
+  if (!(u > -2.0 && v > -2.0 && u < cells.columns + 1 && v < cells.rows + 1)) {
     return false;
   }
   const double column = std::floor(u), row = std::floor(v);
@@ -95,17 +99,17 @@ bool Locate(const InteractionField& field, Vec2d place, Spot& spot) {
 InteractionSample SampleInteraction(const InteractionField& field, Vec2d place) {
   InteractionSample sample;
   Spot spot;
-  if (!Locate(field, place, spot)) return sample;
+  if (!Locate(field.cells, place, spot)) return sample;
   const Weights x(spot.x), y(spot.y);
-  const Neighbours heights(field, field.height_m, spot);
+  const Neighbours heights(field.cells, field.height_m, spot);
   sample.height_m = Value(heights, x, y);
   sample.slope = (1.0 / field.cells.cell_m) * Slope(heights, x, y);
   if (!field.velocity_x.empty()) {
-    sample.velocity = {Value(Neighbours(field, field.velocity_x, spot), x, y),
-                       Value(Neighbours(field, field.velocity_y, spot), x, y),
-                       Value(Neighbours(field, field.velocity_z, spot), x, y)};
+    sample.velocity = {Value(Neighbours(field.cells, field.velocity_x, spot), x, y),
+                       Value(Neighbours(field.cells, field.velocity_y, spot), x, y),
+                       Value(Neighbours(field.cells, field.velocity_z, spot), x, y)};
   }
-  if (!field.foam.empty()) sample.foam = Bilinear(field, field.foam, spot);
+  if (!field.foam.empty()) sample.foam = Bilinear(field.cells, field.foam, spot);
   return sample;
 }
 
@@ -116,10 +120,28 @@ void InteractionHeights(const InteractionSnapshot& snapshot, std::span<const Vec
   for (const auto& field : snapshot.fields) {
     for (std::size_t n = 0; n < places.size(); ++n) {
       Spot spot;
-      if (!Locate(*field, places[n], spot)) continue;
+      if (!Locate(field->cells, places[n], spot)) continue;
       height_m[n] +=
-          Value(Neighbours(*field, field->height_m, spot), Weights(spot.x), Weights(spot.y));
+          Value(Neighbours(field->cells, field->height_m, spot), Weights(spot.x), Weights(spot.y));
     }
+  }
+}
+
+void AddFelt(const CellRect& cells, std::span<const float> height_m, std::span<const float> more_m,
+             std::span<const float> velocity_x, std::span<const float> velocity_y,
+             std::span<const Vec2d> places, std::span<InteractionFelt> sum) {
+  ONESEA_CHECK(height_m.size() == cells.cells() && places.size() == sum.size());
+  ONESEA_CHECK(more_m.empty() || more_m.size() == cells.cells());
+  ONESEA_CHECK(velocity_x.size() == velocity_y.size());
+  for (std::size_t n = 0; n < places.size(); ++n) {
+    Spot spot;
+    if (!Locate(cells, places[n], spot)) continue;
+    Neighbours heights(cells, height_m, spot);
+    if (!more_m.empty()) heights.Add(Neighbours(cells, more_m, spot));
+    sum[n].height_m += Value(heights, Weights(spot.x), Weights(spot.y));
+    if (velocity_x.empty()) continue;
+    sum[n].velocity_m_per_s = sum[n].velocity_m_per_s + Vec2d{Bilinear(cells, velocity_x, spot),
+                                                              Bilinear(cells, velocity_y, spot)};
   }
 }
 

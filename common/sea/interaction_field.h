@@ -44,6 +44,18 @@ InteractionSample SampleInteraction(const InteractionSnapshot& snapshot, Vec2d p
 void InteractionHeights(const InteractionSnapshot& snapshot, std::span<const Vec2d> places,
                         std::span<double> height_m);
 
+/// What a hull feels of the layer at one place: a height, and the water's horizontal velocity.
+struct InteractionFelt {
+  double height_m = 0.0;
+  Vec2d velocity_m_per_s;
+};
+
+/// Adds to `sum` the heights of one field, by the same interpolation, those of `more_m` added to
+/// them at each cell (or none), and the velocities, which are interpolated bilinearly (or none).
+void AddFelt(const CellRect& cells, std::span<const float> height_m, std::span<const float> more_m,
+             std::span<const float> velocity_x, std::span<const float> velocity_y,
+             std::span<const Vec2d> places, std::span<InteractionFelt> sum);
+
 /// The sample of one field.
 InteractionSample SampleInteraction(const InteractionField& field, Vec2d place);
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "common/base/check.h"
+#include "common/base/only_owner.h"
 #include "common/sea/constants.h"
 #include "common/sea/query_kernel.h"
 #include "common/sea/sheet_search.h"
@@ -69,14 +70,8 @@ constexpr double kInversionErrorM = 1e-3;
 // Second derivatives of the displacement beyond this many of their deviations are rare.
 constexpr double kCurvatureSigmas = 4.0;
 
-// Has everybody else let go of it? Then whatever they read was before whatever we write: the count
-// itself is read without order, but the copy goes through its increments and decrements, which
-// acquire what the last reader's released.
-bool IsOnlyOwner(const std::shared_ptr<const SeaSnapshot>& held) {
-  if (held.use_count() != 1) return false;
-  // NOLINTNEXTLINE(performance-unnecessary-copy-initialization): the copy is what orders
-  const std::shared_ptr<const SeaSnapshot> in_order = held;
-  return true;
+int GridSize(const CascadeComponents& waves, int coarser) {
+  return std::max(waves.cascade.query_grid_size / coarser, kGridSizeMin);
 }
 
 // Of one weather entry.
@@ -85,11 +80,11 @@ struct EntryVariances {
   double curvature_per_m2 = 0.0;  // Σ E λ² k⁴: of D'' along the wave
 };
 
-EntryVariances VariancesOf(const Components& components, std::size_t entry) {
+EntryVariances VariancesOf(const Components& components, std::size_t entry, int coarser) {
   EntryVariances sum;
   const double lambda = components.recipe.choppiness;
   for (const CascadeComponents& waves : components.cascades) {
-    const int size = waves.cascade.query_grid_size;
+    const int size = GridSize(waves, coarser);
     for (std::size_t n = 0; n < waves.i.size(); ++n) {
       const double energy_m2 = waves.variance_m2[entry][n];
       const double a = SplineError(waves.i[n], size), b = SplineError(waves.j[n], size);
@@ -108,6 +103,7 @@ EntryVariances VariancesOf(const Components& components, std::size_t entry) {
 struct SeaSnapshot::Impl {
   SimTime time;
   QueryDetail detail = QueryDetail::kHeight;
+  int coarser = 1;
   std::shared_ptr<const Components> components;
   std::vector<AlignedArray<std::uint32_t>> waves, velocities;  // records of grids.cascades
   QueryGrids grids;
@@ -123,12 +119,16 @@ const std::shared_ptr<const AttenuationGrid>& SeaSnapshot::attenuation() const {
 }
 double SeaSnapshot::HeightErrorBound() const { return impl_->height_error_bound_m; }
 
-// A block's heights and displacements.
-void SeaSnapshot::Invert(std::span<const Vec2d> points, std::span<SurfaceSample> out) const {
+void SeaSnapshot::CheckPoints(std::span<const Vec2d> points) const {
   for (const Vec2d& point : points) {
     ONESEA_CHECK(std::abs(point.x) <= kCoordinateMaxM && std::abs(point.y) <= kCoordinateMaxM)
         << "point (" << point.x << ", " << point.y << "); callers validate";
   }
+}
+
+// A block's heights and displacements.
+void SeaSnapshot::Invert(std::span<const Vec2d> points, std::span<SurfaceSample> out) const {
+  CheckPoints(points);
   std::array<bool, kQueryBlock> suspicious;
   SampleBlock(impl_->grids, points, out, std::span(suspicious).first(points.size()));
   for (std::size_t n = 0; n < points.size(); ++n) {
@@ -159,7 +159,8 @@ void SeaSnapshot::SampleBands(std::span<const Vec2d> points, std::span<float> ou
     const std::size_t count = std::min<std::size_t>(kQueryBlock, points.size() - start);
     const auto block_points = points.subspan(start, count);
     const auto block_samples = std::span(samples).first(count);
-    Invert(block_points, block_samples);
+    CheckPoints(block_points);
+    ApproachBlock(impl_->grids, block_points, block_samples);
     BandBlock(impl_->grids, block_points, block_samples,
               out.subspan(floats * start, floats * count));
   }
@@ -174,6 +175,7 @@ struct SnapshotBuilder::Impl {
 
   std::shared_ptr<const Components> components;
   TransformKind transform;
+  int coarser = 1;
   // Without and with velocities, each per cascade, made when first asked for.
   std::array<std::vector<Stage>, 2> stages;
   std::vector<double> weights;
@@ -218,16 +220,18 @@ void SnapshotBuilder::Impl::SetBounds(SeaSnapshot::Impl& snapshot) {
 }
 
 SnapshotBuilder::SnapshotBuilder(std::shared_ptr<const Components> components,
-                                 TransformKind transform)
+                                 TransformKind transform, int coarser)
     : impl_(std::make_unique<Impl>()) {
   ONESEA_CHECK(components != nullptr);
+  ONESEA_CHECK(coarser == 1 || coarser == 2) << coarser;
   impl_->weights.resize(components->recipe.timeline.size());
   for (std::size_t m = 0; m < impl_->weights.size(); ++m) {
-    impl_->variances.push_back(VariancesOf(*components, m));
+    impl_->variances.push_back(VariancesOf(*components, m, coarser));
   }
   impl_->attenuation.emplace(components);
   impl_->components = std::move(components);
   impl_->transform = transform;
+  impl_->coarser = coarser;
 }
 
 SnapshotBuilder::~SnapshotBuilder() = default;
@@ -243,7 +247,7 @@ std::shared_ptr<const SeaSnapshot> SnapshotBuilder::At(
   const FieldSet wanted = FieldsFor(detail);
   if (stages.empty()) {
     for (std::size_t c = 0; c < components.cascades.size(); ++c) {
-      const int size = components.cascades[c].cascade.query_grid_size;
+      const int size = GridSize(components.cascades[c], impl_->coarser);
       stages.push_back({Synthesiser(impl_->components, static_cast<int>(c), size, wanted,
                                     impl_->transform, PlaneKind::kSplineCoefficients),
                         CascadeFields(size, wanted)});
@@ -251,14 +255,15 @@ std::shared_ptr<const SeaSnapshot> SnapshotBuilder::At(
   }
   auto snapshot = std::make_unique<SeaSnapshot::Impl>();
   if (recycle != nullptr && IsOnlyOwner(recycle) && recycle->detail() == detail &&
-      recycle->impl_->components == impl_->components) {
+      recycle->impl_->components == impl_->components &&
+      recycle->impl_->coarser == impl_->coarser) {
     // Nobody else can see it, so its storage is ours.
     auto& old = const_cast<SeaSnapshot::Impl&>(*recycle->impl_);
     snapshot->waves = std::move(old.waves);
     snapshot->velocities = std::move(old.velocities);
   } else {
     for (const CascadeComponents& cascade : components.cascades) {
-      const int size = cascade.cascade.query_grid_size;
+      const int size = GridSize(cascade, impl_->coarser);
       snapshot->waves.push_back(AllocateZeros<std::uint32_t>(RecordWords(size)));
       if (with_velocity) {
         snapshot->velocities.push_back(AllocateZeros<std::uint32_t>(RecordWords(size)));
@@ -267,6 +272,7 @@ std::shared_ptr<const SeaSnapshot> SnapshotBuilder::At(
   }
   snapshot->time = time;
   snapshot->detail = detail;
+  snapshot->coarser = impl_->coarser;
   snapshot->components = impl_->components;
   snapshot->grids.detail = detail;
   snapshot->grids.current_m_per_s = components.recipe.current_m_per_s;
@@ -275,7 +281,7 @@ std::shared_ptr<const SeaSnapshot> SnapshotBuilder::At(
     CascadeFields& planes = stages[c].planes;
     stages[c].synthesiser.Evaluate(time, planes);
     const CascadeFrame frame(components.cascades[c].cascade);
-    QueryCascade grid{.grid_size = components.cascades[c].cascade.query_grid_size,
+    QueryCascade grid{.grid_size = GridSize(components.cascades[c], impl_->coarser),
                       .cosine = frame.cosine,
                       .sine = frame.sine};
     grid.cells_per_m = grid.grid_size / frame.length_m;

@@ -106,9 +106,8 @@ HWY_INLINE void SolveRest(const QueryGrids& grids, Block& block) {
   }
 }
 
-void SolveBlock(const QueryGrids& grids, std::span<const Vec2d> points,
-                std::span<SurfaceSample> out, std::span<bool> suspicious) {
-  Block block;
+// The cheap steps.
+HWY_INLINE void Approach(const QueryGrids& grids, std::span<const Vec2d> points, Block& block) {
   LoadPoints(grids, points, block);
   std::memset(block.d_x, 0, sizeof block.d_x);
   std::memset(block.d_y, 0, sizeof block.d_y);
@@ -117,6 +116,22 @@ void SolveBlock(const QueryGrids& grids, std::span<const Vec2d> points,
   FixedPointStep(grids, (cascades + 1) / 2, block);
   FixedPointStep(grids, cascades - cascades / 4, block);
   NewtonStep(grids, block);
+}
+
+void ApproachBlockTarget(const QueryGrids& grids, std::span<const Vec2d> points,
+                         std::span<SurfaceSample> out) {
+  Block block;
+  Approach(grids, points, block);
+  for (std::size_t n = 0; n < points.size(); ++n) {
+    out[n].displacement_x_m = block.d_x[n];
+    out[n].displacement_y_m = block.d_y[n];
+  }
+}
+
+void SolveBlock(const QueryGrids& grids, std::span<const Vec2d> points,
+                std::span<SurfaceSample> out, std::span<bool> suspicious) {
+  Block block;
+  Approach(grids, points, block);
   SplineStep(grids, block);
   SolveRest(grids, block);
   for (std::size_t n = 0; n < points.size(); ++n) {
@@ -179,6 +194,7 @@ HWY_AFTER_NAMESPACE();
 namespace onesea::sea {
 
 HWY_EXPORT(SolveBlock);
+HWY_EXPORT(ApproachBlockTarget);
 HWY_EXPORT(FinishBlockTarget);
 
 void SampleBlock(const QueryGrids& grids, std::span<const Vec2d> points,
@@ -186,6 +202,12 @@ void SampleBlock(const QueryGrids& grids, std::span<const Vec2d> points,
   ONESEA_CHECK(!points.empty() && points.size() <= kQueryBlock && out.size() == points.size() &&
                suspicious.size() == points.size());
   HWY_DYNAMIC_DISPATCH(SolveBlock)(grids, points, out, suspicious);
+}
+
+void ApproachBlock(const QueryGrids& grids, std::span<const Vec2d> points,
+                   std::span<SurfaceSample> out) {
+  ONESEA_CHECK(!points.empty() && points.size() <= kQueryBlock && out.size() == points.size());
+  HWY_DYNAMIC_DISPATCH(ApproachBlockTarget)(grids, points, out);
 }
 
 void FinishBlock(const QueryGrids& grids, std::span<const Vec2d> points,

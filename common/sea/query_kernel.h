@@ -69,6 +69,10 @@ QueryPoint EvaluateQueryPoint(const QueryGrids& grids, const PlaneFactors& facto
 void SampleBlock(const QueryGrids& grids, std::span<const Vec2d> points,
                  std::span<SurfaceSample> out, std::span<bool> suspicious);
 
+/// Displacements alone, to about a centimetre: what SampleBlock begins with.
+void ApproachBlock(const QueryGrids& grids, std::span<const Vec2d> points,
+                   std::span<SurfaceSample> out);
+
 /// Fills everything that depends on the final undisplaced point alone (normal, velocity), from
 /// displacement in `out`.
 void FinishBlock(const QueryGrids& grids, std::span<const Vec2d> points,

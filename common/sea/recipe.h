@@ -74,6 +74,10 @@ std::vector<double> WeatherWeights(const Recipe& recipe, SimTime time);
 /// The same into storage that the caller keeps. Pre: weights.size() == recipe.timeline.size().
 void WeatherWeights(const Recipe& recipe, SimTime time, std::span<double> weights);
 
+/// The wind [m/s], where it blows to: the weighted mean of the entries' speeds, in the direction of
+/// the mean of their vectors, so that it veers from one to the next without dying down.
+Vec2d WindAt(const Recipe& recipe, SimTime time);
+
 /// Appends a change that begins at `start_tick`, and folds away entries that no longer matter at
 /// `start_tick` - 1 h. InvalidArgument if `start_tick` lies before the last entry's start, or the
 /// limit of entries is reached.

@@ -46,6 +46,22 @@ std::vector<double> WeatherWeights(const Recipe& recipe, SimTime time) {
   return weights;
 }
 
+Vec2d WindAt(const Recipe& recipe, SimTime time) {
+  const std::vector<double> weights = WeatherWeights(recipe, time);
+  double speed = 0.0;
+  Vec2d mean;
+  for (std::size_t n = 0; n < weights.size(); ++n) {
+    const SeaState& sea = recipe.timeline[n].sea;
+    const double share = weights[n] * sea.wind_speed_m_per_s;
+    const real::SinCosPair to = real::SinCos(sea.wind_to_rad);
+    speed += share;
+    mean = mean + share * Vec2d{to.cos, to.sin};
+  }
+  const double length = std::sqrt(mean.x * mean.x + mean.y * mean.y);
+  if (!(length > 1e-9 * speed)) return {};
+  return (speed / length) * mean;
+}
+
 absl::Status AppendWeather(Recipe& recipe, WeatherEntry entry) {
   std::vector<WeatherEntry> timeline = recipe.timeline;
   if (!timeline.empty() && entry.start_tick < timeline.back().start_tick) {

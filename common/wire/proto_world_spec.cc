@@ -36,6 +36,7 @@ void ToProto(const RegionSpec& region, v1::RegionSpec* out) {
   out->set_damping_per_s(region.damping_per_s);
   out->set_height_step_m(region.height_step_m);
   out->set_frames_per_update(region.frames_per_update);
+  out->set_rain_drops_per_m2_s(region.rain_drops_per_m2_s);
 }
 
 absl::StatusOr<RegionSpec> FromProto(const v1::RegionSpec& proto) {
@@ -54,8 +55,13 @@ absl::StatusOr<RegionSpec> FromProto(const v1::RegionSpec& proto) {
   if (!(proto.cell_m() == 0.0)) region.cell_m = proto.cell_m();
   region.follow_body_id = proto.follow_body_id();
   region.damping_per_s = proto.damping_per_s();
+  if (region.cell_m > kFarCellM) {
+    region.height_step_m = kFarHeightStepM;
+    region.frames_per_update = kFarFramesPerUpdate;
+  }
   if (proto.has_height_step_m()) region.height_step_m = proto.height_step_m();
   if (proto.frames_per_update() != 0) region.frames_per_update = proto.frames_per_update();
+  region.rain_drops_per_m2_s = proto.rain_drops_per_m2_s();
   return region;
 }
 

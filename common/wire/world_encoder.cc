@@ -2,22 +2,26 @@
 
 #include <algorithm>
 
+#include "common/base/check.h"
 #include "common/base/limits.h"
 
 namespace onesea::wire {
 
 WorldEncoder::WorldEncoder(double tick_s, const WorldEncoderOptions& options)
-    : options_(options), tiles_(options.tiles), bodies_(tick_s, options.bodies) {}
+    : tiles_(options.tiles), bodies_(tick_s, options.bodies) {}
 
 WorldUpdate WorldEncoder::Encode(const WorldState& state) {
   static const auto& kNone = *new sea::InteractionSnapshot();
   const sea::InteractionSnapshot& snapshot =
       state.interaction != nullptr ? *state.interaction : kNone;
-  NameRegions(snapshot);
+  ONESEA_CHECK(state.streaming.empty() || state.streaming.size() == snapshot.fields.size());
+  const std::uint32_t known = last_id_;
+  NameRegions(snapshot, state.streaming);
   fields_.clear();
   for (std::size_t n = 0; n < regions_.size(); ++n) {
-    const bool coarse = regions_[n].cells.cell_m > options_.coarse_cell_m;
-    if (coarse && (updates_ + regions_[n].id) % options_.coarse_frames_per_update != 0) {
+    const int every = state.streaming.empty() ? 1 : state.streaming[n].frames_per_update;
+    // Not all of them in the same frame, but a new one at once.
+    if (regions_[n].id <= known && (updates_ + regions_[n].id) % every != 0) {
       fields_.push_back({regions_[n], {}, {}});
     } else {
       fields_.push_back({regions_[n], snapshot.fields[n]->height_m, snapshot.fields[n]->foam});
@@ -35,10 +39,12 @@ WorldUpdate WorldEncoder::Encode(const WorldState& state) {
   return update;
 }
 
-void WorldEncoder::NameRegions(const sea::InteractionSnapshot& snapshot) {
+void WorldEncoder::NameRegions(const sea::InteractionSnapshot& snapshot,
+                               std::span<const RegionStreaming> streaming) {
   former_.swap(regions_);
   regions_.clear();
   for (const auto& field : snapshot.fields) {
+    const RegionStreaming how = streaming.empty() ? RegionStreaming{} : streaming[regions_.size()];
     auto best = former_.end();
     std::size_t most = 0;
     for (auto former = former_.begin(); former != former_.end(); ++former) {
@@ -48,10 +54,9 @@ void WorldEncoder::NameRegions(const sea::InteractionSnapshot& snapshot) {
       most = shared;
       best = former;
     }
-    const bool coarse = field->cells.cell_m > options_.coarse_cell_m;
     regions_.push_back({.id = best != former_.end() ? best->id : ++last_id_,
                         .cells = field->cells,
-                        .height_step_m = coarse ? options_.coarse_step_m : options_.height_step_m});
+                        .height_step_m = how.height_step_m});
     if (best != former_.end()) former_.erase(best);
   }
 }

@@ -13,10 +13,18 @@
 
 namespace onesea::wire {
 
+/// How a region is streamed.
+struct RegionStreaming {
+  double height_step_m = 1e-3;
+  int frames_per_update = 1;  ///< its tiles go with every so manieth Encode()
+  friend bool operator==(const RegionStreaming&, const RegionStreaming&) = default;
+};
+
 /// A session's world at one tick, as its streamer sees it.
 struct WorldState {
   Tick tick = 0;
   const sea::InteractionSnapshot* interaction = nullptr;  ///< null: no regions
+  std::span<const RegionStreaming> streaming = {};        ///< one per region, or none: the defaults
   std::span<const BodyView> bodies;  ///< all bodies, ascending by id; see BodyEncoder
   double water_level_m = 0.0;
   std::span<const Spray> spray;  ///< since the last call; the first kSprayMax are told
@@ -25,10 +33,6 @@ struct WorldState {
 struct WorldEncoderOptions {
   TileTolerance tiles;
   BodyTolerance bodies;
-  double height_step_m = 1e-3;
-  double coarse_cell_m = 1.0;        ///< regions with larger cells are far from anybody
-  double coarse_step_m = 4e-3;       ///< and get these steps,
-  int coarse_frames_per_update = 3;  ///< with every so manieth update
 };
 
 /// Everything that a stream of frames must remember to say only what changed. One per session, for
@@ -49,9 +53,9 @@ class WorldEncoder {
   WorldUpdate Keyframe();
 
  private:
-  void NameRegions(const sea::InteractionSnapshot& snapshot);
+  void NameRegions(const sea::InteractionSnapshot& snapshot,
+                   std::span<const RegionStreaming> streaming);
 
-  WorldEncoderOptions options_;
   Tick tick_ = 0;
   std::int64_t updates_ = 0;
   std::optional<double> water_level_m_;

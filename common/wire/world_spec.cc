@@ -42,7 +42,9 @@ absl::Status ValidateRegionSpec(const std::string& prefix, const RegionSpec& reg
   ONESEA_RETURN_IF_ERROR(CheckReal(prefix, "damping_per_s", region.damping_per_s, 0.0, 10.0));
   ONESEA_RETURN_IF_ERROR(
       CheckReal(prefix, "height_step_m", region.height_step_m, kHeightStepMinM, kHeightStepMaxM));
-  return CheckInteger(prefix, "frames_per_update", region.frames_per_update, 1, 60);
+  ONESEA_RETURN_IF_ERROR(
+      CheckInteger(prefix, "frames_per_update", region.frames_per_update, 1, kFramesPerUpdateMax));
+  return CheckReal(prefix, "rain_drops_per_m2_s", region.rain_drops_per_m2_s, 0.0, kRainMaxPerM2S);
 }
 
 absl::Status ValidateWaterLevel(const std::string& prefix, std::span<const WaterLevel> levels) {

@@ -24,6 +24,12 @@ struct Kinematics {
   friend bool operator==(const Kinematics&, const Kinematics&) = default;
 };
 
+/// Regions with larger cells are far from anybody: unless told otherwise they come to viewers in
+/// these steps and with every so manieth frame.
+inline constexpr double kFarCellM = 1.0;
+inline constexpr double kFarHeightStepM = 4e-3;
+inline constexpr int kFarFramesPerUpdate = 3;
+
 enum class RegionSolver : std::uint8_t { kIwave = 1, kWaveEquation = 2, kShallowWater = 3 };
 
 /// A region of the interaction layer as it is asked for.
@@ -33,9 +39,10 @@ struct RegionSpec {
   int columns = 256, rows = 256;  ///< multiples of kRegionSideStep
   double cell_m = 0.5;
   std::uint32_t follow_body_id = 0;  ///< the middle follows this body; 0: it stands
-  double damping_per_s = 0.0;        ///< [0, 10]
-  double height_step_m = 1e-3;       ///< on the wire
+  double damping_per_s = 0.0;        ///< [0, 10], of energy, beside what every region has
+  double height_step_m = 1e-3;       ///< on the wire: viewers are within one step
   int frames_per_update = 1;         ///< tiles go with every so manieth streamed frame, [1, 60]
+  double rain_drops_per_m2_s = 0.0;  ///< [0, kRainMaxPerM2S]
   friend bool operator==(const RegionSpec&, const RegionSpec&) = default;
 };
 

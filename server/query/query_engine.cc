@@ -86,6 +86,25 @@ void SampleSurface(const sea::SeaSnapshot& snapshot, const QueryRequest& request
   }
 }
 
+// None where nothing is known of the layer, or there is none.
+std::optional<sea::InteractionMoment> MomentOf(SimTime time, int tick_rate_hz, Tick now,
+                                               const QueryWorld& world) {
+  static const auto& kNone = *new sea::InteractionPast();
+  const sea::InteractionSnapshot* interaction = world.interaction;
+  if (interaction == nullptr) return std::nullopt;
+  const sea::InteractionPast& past = world.past != nullptr ? *world.past : kNone;
+  const SimTime tick = TimeOfTick(1, tick_rate_hz), present = TimeOfTick(now, tick_rate_hz);
+  // From the present back, exactly, since a time may be a century away.
+  const double later =
+      static_cast<double>(time.flicks - present.flicks) / static_cast<double>(tick.flicks);
+  const auto moment = sea::FindMoment(past, *interaction,
+                                      static_cast<double>(interaction->tick) + later, tick_rate_hz);
+  if (!moment || (moment->before->fields.empty() && moment->after->fields.empty())) {
+    return std::nullopt;
+  }
+  return moment;
+}
+
 // The layers' slopes add as their heights do.
 void Tilt(Vec2d slope, float* normal) {
   const double up = std::max(static_cast<double>(normal[2]), 1e-3);
@@ -96,7 +115,7 @@ void Tilt(Vec2d slope, float* normal) {
   normal[2] = static_cast<float>(scale);
 }
 
-void AddInteraction(const sea::InteractionSnapshot& interaction, const QueryRequest& request,
+void AddInteraction(const sea::InteractionMoment& interaction, const QueryRequest& request,
                     QueryAnswer& answer) {
   answer.layers |= sea::kLayerInteraction;
   for (std::size_t n = 0; n < request.points_m.size(); ++n) {
@@ -189,9 +208,8 @@ absl::StatusOr<QueryAnswer> QueryEngine::Answer(
     answer.layers |= sea::kLayerWaterLevel;
     for (float& height_m : answer.height_m) height_m += static_cast<float>(level_m);
   }
-  if (world.interaction != nullptr && !world.interaction->fields.empty() &&
-      time == TimeOfTick(now, components->recipe.tick_rate_hz)) {
-    AddInteraction(*world.interaction, request, answer);
+  if (const auto moment = MomentOf(time, components->recipe.tick_rate_hz, now, world)) {
+    AddInteraction(*moment, request, answer);
   }
   const sea::Terrain* terrain = nullptr;
   if (components->attenuation != nullptr) {

@@ -6,7 +6,7 @@
 #include <span>
 
 #include "absl/status/statusor.h"
-#include "common/sea/interaction_field.h"
+#include "common/sea/interaction_past.h"
 #include "common/wire/query.h"
 #include "common/wire/world_spec.h"
 #include "server/query/snapshot_cache.h"
@@ -19,9 +19,11 @@ absl::Status ValidateQuery(const wire::QueryRequest& request, const sea::Recipe&
 
 /// What a session's water has beside the spectral sea.
 struct QueryWorld {
-  /// The layer at tick `now`, or null: added to answers for that very tick, 20 ns a point and
-  /// region. Depth answers are without it.
+  /// The layer at tick `now`, or null, and what is kept of the time before, or null: added to
+  /// answers for moments from the oldest of it on, 20 ns a point and region (60 between snapshots).
+  /// Depth answers are without it.
   const sea::InteractionSnapshot* interaction = nullptr;
+  const sea::InteractionPast* past = nullptr;
   std::span<const wire::WaterLevel> water_level{};
 };
 

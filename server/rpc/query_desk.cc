@@ -21,9 +21,11 @@ absl::StatusOr<wire::QueryAnswer> QueryDesk::Answer(const std::shared_ptr<Sessio
                                                     const wire::QueryRequest& request) {
   const SessionView view = session->View();
   const std::shared_ptr<QueryEngine> engine = EngineOf(session);
-  absl::StatusOr<wire::QueryAnswer> answer = engine->Answer(
-      view.components, view.tick, request,
-      {.interaction = view.world->interaction.get(), .water_level = session->water_level()});
+  absl::StatusOr<wire::QueryAnswer> answer =
+      engine->Answer(view.components, view.tick, request,
+                     {.interaction = view.world->interaction.get(),
+                      .past = view.world->past.get(),
+                      .water_level = session->water_level()});
   const bool asked_for_now = !request.tick && !request.time_s;
   if (answer.ok() && asked_for_now) PrepareNext(session, engine, view.tick, request.detail);
   return answer;

@@ -1,8 +1,10 @@
 #include "server/stream/frame_builder.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "common/base/check.h"
+#include "common/base/limits.h"
 
 namespace onesea::server {
 
@@ -34,12 +36,14 @@ bool FrameBuilder::OnTick(const TickEvent& event, bool anybody_watches) {
   const bool changed =
       !stamp_.has_value() || event.stamp.speed != stamp_->speed || event.stamp.pace != stamp_->pace;
   stamp_ = event.stamp;
+  TakeSpray(event);
   world_ = event.world;
   keyframe_.reset();
   if (event.probes != nullptr) {
     probes_ = *event.probes;
     probes_owed_ = true;
   }
+  if (!anybody_watches) spray_.clear();
   const bool wanted =
       event.stamp_instant || (audience_ == Audience::kEveryFrame && event.stream_instant);
   if (!wanted || !anybody_watches) return false;
@@ -50,6 +54,17 @@ bool FrameBuilder::OnTick(const TickEvent& event, bool anybody_watches) {
   }
   Emit();
   return true;
+}
+
+// Of each tick once; a frame tells that of all since the one before.
+void FrameBuilder::TakeSpray(const TickEvent& event) {
+  const bool new_tick =
+      world_ == nullptr || event.world == nullptr || event.world->tick != world_->tick;
+  if (audience_ != Audience::kEveryFrame || event.world == nullptr || !new_tick) return;
+  const std::vector<wire::Spray>& spray = event.world->spray;
+  const std::size_t room = kSprayMax - spray_.size();
+  spray_.insert(spray_.end(), spray.begin(),
+                spray.begin() + static_cast<std::ptrdiff_t>(std::min(room, spray.size())));
 }
 
 bool FrameBuilder::Flush(std::int64_t now_ns) {
@@ -82,9 +97,11 @@ void FrameBuilder::EncodeWorld(wire::Frame& frame) {
   if (!encoder_ || world_ == nullptr || (world_->empty() && !world_told_)) return;
   frame.world = encoder_->Encode({.tick = world_->tick,
                                   .interaction = world_->interaction.get(),
+                                  .streaming = world_->streaming,
                                   .bodies = world_->bodies,
                                   .water_level_m = world_->water_level_m,
-                                  .spray = {}});
+                                  .spray = spray_});
+  spray_.clear();
   world_told_ = true;
 }
 

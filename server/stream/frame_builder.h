@@ -50,6 +50,7 @@ class FrameBuilder {
   std::int64_t SpacingNs() const;
   void Emit();
   void EncodeWorld(wire::Frame& frame);
+  void TakeSpray(const TickEvent& event);
   wire::Frame Keyframed();
 
   Audience audience_;
@@ -64,6 +65,7 @@ class FrameBuilder {
   std::shared_ptr<const world::WorldView> world_;  // newest
   std::optional<wire::WorldEncoder> encoder_;      // what they hold
   bool world_told_ = false;                        // they hold something
+  std::vector<wire::Spray> spray_;                 // since the last frame
   std::int64_t sequence_ = 0;
   FramePtr newest_;
   FramePtr keyframe_;  // of the newest state, or null

@@ -37,16 +37,25 @@ Mat6 RigidMass(double mass_kg, const Mat3d& inertia_kg_m2) {
   return out;
 }
 
+// Finer faces than two for each sample of the water around a body (body_water.h) tell nothing.
+constexpr double kFaceM = 0.5;
+
+int CellsAlong(double size_m) {
+  return std::clamp(static_cast<int>(std::ceil(size_m / kFaceM)), 2, 4);
+}
+
 }  // namespace
 
 TriangleMesh MakeMesh(const BodyShape& shape) {
   switch (shape.kind) {
     case ShapeKind::kBox:
-      return BoxMesh(shape.size_m);
+      return BoxMesh(shape.size_m,
+                     CellsAlong(std::max({shape.size_m.x, shape.size_m.y, shape.size_m.z})));
     case ShapeKind::kSphere:
       return SphereMesh(shape.radius_m);
     case ShapeKind::kCylinder:
-      return CylinderMesh(shape.radius_m, shape.length_m);
+      return CylinderMesh(shape.radius_m, shape.length_m, shape.radius_m > 1.5 * kFaceM ? 24 : 16,
+                          CellsAlong(shape.length_m));
     case ShapeKind::kCapsule:
       return CapsuleMesh(shape.radius_m, shape.length_m);
     case ShapeKind::kMesh:

@@ -33,9 +33,10 @@ void BodyWater::Clear() {
   points_m_.clear();
 }
 
-std::size_t BodyWater::Add(Vec2d centre_m, double radius_m) {
+std::size_t BodyWater::Add(Vec2d centre_m, double radius_m, bool in_flow) {
   if (count_ == places_.size()) places_.emplace_back();
   Place& place = places_[count_];
+  place.in_flow = in_flow;
   const double half_m = kMargin * radius_m;
   const double spacing_m = std::max(0.5 * radius_m, kSampleSpacingMinM);
   place.side =
@@ -53,17 +54,17 @@ std::size_t BodyWater::Add(Vec2d centre_m, double radius_m) {
   return count_++;
 }
 
-void BodyWater::Fill(const IncidentSea& sea, std::span<const double> interaction_m) {
-  ONESEA_CHECK(interaction_m.empty() || interaction_m.size() == points_m_.size());
+void BodyWater::Fill(const IncidentSea& sea, std::span<const sea::InteractionFelt> interaction) {
+  ONESEA_CHECK(interaction.empty() || interaction.size() == points_m_.size());
   if (sea.waves != nullptr) {
     ONESEA_CHECK(sea.wavenumber_rad_per_m.size() == static_cast<std::size_t>(sea.waves->bands()));
     bands_.resize(4 * points_m_.size() * sea.wavenumber_rad_per_m.size());
     sea.waves->SampleBands(points_m_, bands_);
   }
-  for (std::size_t n = 0; n < count_; ++n) FillOne(sea, interaction_m, places_[n]);
+  for (std::size_t n = 0; n < count_; ++n) FillOne(sea, interaction, places_[n]);
 }
 
-void BodyWater::FillOne(const IncidentSea& sea, std::span<const double> interaction_m,
+void BodyWater::FillOne(const IncidentSea& sea, std::span<const sea::InteractionFelt> interaction,
                         Place& place) const {
   const std::size_t sea_bands = sea.waves == nullptr ? 0 : sea.wavenumber_rad_per_m.size();
   WaterPatch& patch = place.patch;
@@ -85,8 +86,15 @@ void BodyWater::FillOne(const IncidentSea& sea, std::span<const double> interact
     for (std::size_t b = 0; b < sea_bands; ++b) height_m += from[4 * b];
     std::copy(from, from + 4 * sea_bands, to);
     to += 4 * sea_bands;
-    to[0] = interaction_m.empty() ? 0.0f : static_cast<float>(interaction_m[place.first_point + n]);
-    to[1] = to[2] = to[3] = 0.0f;
+    std::fill(to, to + 4, 0.0f);
+    if (!interaction.empty()) {
+      const sea::InteractionFelt& felt = interaction[place.first_point + n];
+      to[0] = static_cast<float>(felt.height_m);
+      if (place.in_flow) {
+        to[1] = static_cast<float>(felt.velocity_m_per_s.x);
+        to[2] = static_cast<float>(felt.velocity_m_per_s.y);
+      }
+    }
     place.incident.height_m[n] = static_cast<float>(height_m);
   }
   patch.FindHighest();

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "common/sea/interaction_field.h"
 #include "common/sea/point_query.h"
 #include "common/sea/terrain.h"
 #include "server/world/displaced_columns.h"
@@ -30,15 +31,16 @@ class BodyWater {
   void Clear();
   /// Lays samples under a body that stays within `radius_m` of `centre_m`: between 3 x 3 and
   /// 13 x 13, half a radius apart or `kSampleSpacingMinM`, so that waves shorter than the hull are
-  /// seen, and those that it averages out may be missed. Returns its index.
-  std::size_t Add(Vec2d centre_m, double radius_m);
+  /// seen, and those that it averages out may be missed. `in_flow`: the layer's velocity moves it.
+  /// Returns its index.
+  std::size_t Add(Vec2d centre_m, double radius_m, bool in_flow = true);
 
   /// Where the samples of all bodies lie.
   std::span<const Vec2d> points_m() const { return points_m_; }
-  /// Fills the patches. `interaction_m`: height of the interaction layer at points_m(), or none.
+  /// Fills the patches. `interaction`: what is felt of that layer at points_m(), or none.
   /// That band is taken not to fade with depth: its pressure is what the grid was given.
   /// Cost: some 0.5 µs a sample.
-  void Fill(const IncidentSea& sea, std::span<const double> interaction_m);
+  void Fill(const IncidentSea& sea, std::span<const sea::InteractionFelt> interaction);
 
   const WaterPatch& patch(std::size_t body) const { return places_[body].patch; }
   /// Height of the incident sea and the level, without the interaction layer.
@@ -48,10 +50,12 @@ class BodyWater {
   struct Place {
     std::size_t first_point = 0;
     int side = 0;
+    bool in_flow = true;
     WaterPatch patch{};
     HeightPatch incident{};
   };
-  void FillOne(const IncidentSea& sea, std::span<const double> interaction_m, Place& place) const;
+  void FillOne(const IncidentSea& sea, std::span<const sea::InteractionFelt> interaction,
+               Place& place) const;
 
   std::vector<Place> places_;  // never shrinks; the first count_ are in use
   std::size_t count_ = 0;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "common/base/check.h"
 #include "common/sea/grid_place.h"
@@ -28,20 +30,16 @@ Corner Crossing(const Corner& wet, const Corner& dry) {
 // Longest side of a piece: at 0.7 a level bottom comes out level to 1 %.
 constexpr double kPieceCells = 0.7;
 
-class Spreader {
+// Splits wetted pieces until they are small, and hands on the columns above them.
+template <typename Take>
+class Splitter {
  public:
-  Spreader(const sea::CellRect& cells, std::span<float> head_m, double share)
-      : cells_(cells),
-        head_m_(head_m),
-        share_(share),
-        cells_per_m_(1.0 / cells.cell_m),
-        west_m_(cells.PlaceOf(cells.west, cells.south).x),
-        south_m_(cells.PlaceOf(cells.west, cells.south).y) {}
+  Splitter(double longest_m, const Take& take) : longest_m_(longest_m), take_(take) {}
 
   // The column between a wetted piece and the surface.
-  void Add(const Corner& a, const Corner& b, const Corner& c, int splits) {
+  void Add(const Corner& a, const Corner& b, const Corner& c, int splits) const {
     const double longest = std::max({Reach(a, b), Reach(b, c), Reach(c, a)});
-    if (splits > 0 && longest > kPieceCells * cells_.cell_m) {
+    if (splits > 0 && longest > longest_m_) {
       const Corner ab = Middle(a, b), bc = Middle(b, c), ca = Middle(c, a);
       Add(a, ab, ca, splits - 1);
       Add(ab, b, bc, splits - 1);
@@ -52,20 +50,34 @@ class Spreader {
     // Counter-clockwise from outside: seen from above, faces that look down turn clockwise.
     const double area = -0.5 * ((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
     const double volume = area * (a.depth + b.depth + c.depth) / 3.0;
-    Spread((a.x + b.x + c.x) / 3.0, (a.y + b.y + c.y) / 3.0, volume);
+    take_((a.x + b.x + c.x) / 3.0, (a.y + b.y + c.y) / 3.0, volume);
   }
 
  private:
   static double Reach(const Corner& a, const Corner& b) {
     return std::max(std::abs(a.x - b.x), std::abs(a.y - b.y));
   }
+  double longest_m_;
+  const Take& take_;
+};
 
-  void Spread(double x, double y, double volume_m3) {
+class Spreader {
+ public:
+  Spreader(const sea::CellRect& cells, std::span<float> head_m, double share)
+      : cells_(cells),
+        head_m_(head_m),
+        share_(share),
+        cells_per_m_(1.0 / cells.cell_m),
+        west_m_(cells.PlaceOf(cells.west, cells.south).x),
+        south_m_(cells.PlaceOf(cells.west, cells.south).y) {}
+
+  void operator()(double x, double y, double volume_m3) const {
     const double column = (x - west_m_) * cells_per_m_, row = (y - south_m_) * cells_per_m_;
     if (!(column >= 1.0 && column < cells_.columns - 2 && row >= 1.0 && row < cells_.rows - 2)) {
       return;
     }
-    const int i = static_cast<int>(std::lround(column)), j = static_cast<int>(std::lround(row));
+    // To the nearest; both are positive.
+    const int i = static_cast<int>(column + 0.5), j = static_cast<int>(row + 0.5);
     const std::array<double, 3> u = Weights(column - i), v = Weights(row - j);
     const double head = share_ * volume_m3 * cells_per_m_ * cells_per_m_;
     for (int dj = 0; dj < 3; ++dj) {
@@ -74,6 +86,7 @@ class Spreader {
     }
   }
 
+ private:
   // Of the quadratic B-spline at offsets -1, 0, 1; t in [-1/2, 1/2].
   static std::array<double, 3> Weights(double t) {
     return {0.5 * (0.5 - t) * (0.5 - t), 0.75 - t * t, 0.5 * (0.5 + t) * (0.5 + t)};
@@ -85,7 +98,8 @@ class Spreader {
 };
 
 // The wetted part of a triangle, at most two pieces.
-void AddTriangle(const std::array<Corner, 3>& triangle, Spreader& spreader) {
+template <typename Take>
+void AddTriangle(const std::array<Corner, 3>& triangle, const Splitter<Take>& splitter) {
   constexpr int kSplitsMax = 6;
   std::array<Corner, 4> wet;
   int count = 0;
@@ -97,7 +111,24 @@ void AddTriangle(const std::array<Corner, 3>& triangle, Spreader& spreader) {
       wet[count++] = here.depth > 0.0 ? Crossing(here, next) : Crossing(next, here);
     }
   }
-  for (int n = 2; n < count; ++n) spreader.Add(wet[0], wet[n - 1], wet[n], kSplitsMax);
+  for (int n = 2; n < count; ++n) splitter.Add(wet[0], wet[n - 1], wet[n], kSplitsMax);
+}
+
+// Calls take(x, y, volume) for the columns of all wetted pieces.
+template <typename Take>
+void ForColumns(const TriangleMesh& mesh, Vec3d centre_of_mass_m, const Pose& pose,
+                const HeightPatch& surface, double longest_m, const Take& take) {
+  const Mat3d turn = ToMatrix(pose.turn);
+  std::vector<Corner> corners;
+  corners.reserve(mesh.vertices.size());
+  for (const Vec3d& vertex : mesh.vertices) {
+    const Vec3d place = pose.centre_m + turn * (vertex - centre_of_mass_m);
+    corners.push_back({place.x, place.y, surface.At(place.x, place.y) - place.z});
+  }
+  const Splitter<Take> splitter(longest_m, take);
+  for (const auto& [a, b, c] : mesh.triangles) {
+    AddTriangle({corners[a], corners[b], corners[c]}, splitter);
+  }
 }
 
 }  // namespace
@@ -116,16 +147,43 @@ void AddDisplacedColumns(const TriangleMesh& mesh, Vec3d centre_of_mass_m, const
                          const HeightPatch& surface, const sea::CellRect& cells,
                          std::span<float> head_m, double share) {
   ONESEA_CHECK(head_m.size() == cells.cells() && cells.columns >= 2 && cells.rows >= 2);
-  const Mat3d turn = ToMatrix(pose.turn);
-  std::vector<Corner> corners;
-  corners.reserve(mesh.vertices.size());
-  for (const Vec3d& vertex : mesh.vertices) {
-    const Vec3d place = pose.centre_m + turn * (vertex - centre_of_mass_m);
-    corners.push_back({place.x, place.y, surface.At(place.x, place.y) - place.z});
+  const Spreader spreader(cells, head_m, share);
+  ForColumns(mesh, centre_of_mass_m, pose, surface, kPieceCells * cells.cell_m, spreader);
+}
+
+std::vector<LumpedColumn> ColumnsAtRest(const TriangleMesh& mesh, Vec3d centre_of_mass_m,
+                                        double centre_height_m, double cell_m) {
+  const double lump_m = kPieceCells * cell_m;
+  std::map<std::pair<std::int64_t, std::int64_t>, LumpedColumn> lumps;
+  const auto take = [&](double x, double y, double volume_m3) {
+    LumpedColumn& lump = lumps[{std::llround(x / lump_m), std::llround(y / lump_m)}];
+    lump.x_m += x * volume_m3;
+    lump.y_m += y * volume_m3;
+    lump.volume_m3 += volume_m3;
+  };
+  ForColumns(mesh, centre_of_mass_m, {{0.0, 0.0, centre_height_m}, {}}, HeightPatch{}, lump_m,
+             take);
+  std::vector<LumpedColumn> columns;
+  for (const auto& [index, lump] : lumps) {
+    // Overhangs count down; where they leave nothing, there is no middle either.
+    if (std::abs(lump.volume_m3) < 1e-9 * lump_m * lump_m * lump_m) continue;
+    const double x = lump.x_m / lump.volume_m3, y = lump.y_m / lump.volume_m3;
+    const double low_x = (static_cast<double>(index.first) - 0.5) * lump_m;
+    const double low_y = (static_cast<double>(index.second) - 0.5) * lump_m;
+    columns.push_back({std::clamp(x, low_x, low_x + lump_m), std::clamp(y, low_y, low_y + lump_m),
+                       lump.volume_m3});
   }
-  Spreader spreader(cells, head_m, share);
-  for (const auto& [a, b, c] : mesh.triangles) {
-    AddTriangle({corners[a], corners[b], corners[c]}, spreader);
+  return columns;
+}
+
+void AddColumns(std::span<const LumpedColumn> columns, Vec2d place_m, const Quaternion& turn,
+                const sea::CellRect& cells, std::span<float> head_m, double share) {
+  ONESEA_CHECK(head_m.size() == cells.cells() && cells.columns >= 2 && cells.rows >= 2);
+  const Spreader spread(cells, head_m, share);
+  const double cosine = turn.w * turn.w - turn.z * turn.z, sine = 2.0 * turn.w * turn.z;
+  for (const LumpedColumn& column : columns) {
+    spread(place_m.x + cosine * column.x_m - sine * column.y_m,
+           place_m.y + sine * column.x_m + cosine * column.y_m, column.volume_m3);
   }
 }
 

@@ -23,15 +23,43 @@ InteractionFoam::InteractionFoam(const sea::CellRect& cells, const FoamOptions& 
 
 void InteractionFoam::Advance(double span_s, const WaveSolver& waves) {
   const std::span<const float> height_m = waves.height_m();
-  float highest = 0.0f, foam = 0.0f;
-  for (std::size_t n = 0; n < shares_.size(); ++n) {
-    highest = std::max(highest, std::abs(height_m[n]));
-    foam = std::max(foam, shares_[n]);
+  // Per row: nothing becomes of a row that has no foam within reach and no steep water.
+  std::vector<bool> foam(cells_.rows), high(cells_.rows);
+  // A slope is at most √2 of the highest beside it per cell.
+  const auto limit_m = static_cast<float>(options_.steep * cells_.cell_m / std::sqrt(2.0));
+  bool any = false;
+  for (int row = 0; row < cells_.rows; ++row) {
+    const std::size_t at = static_cast<std::size_t>(row) * cells_.columns;
+    float highest = 0.0f, most = 0.0f;
+    for (int n = 0; n < cells_.columns; ++n) {
+      highest = std::max(highest, std::abs(height_m[at + n]));
+      most = std::max(most, shares_[at + n]);
+    }
+    foam[row] = most > 0.0f;
+    high[row] = !(highest < limit_m);
+    any = any || foam[row] || high[row];
   }
-  // A slope is at most this, since it spans two cells.
-  if (foam == 0.0f && highest < options_.steep * cells_.cell_m / std::sqrt(2.0)) return;
+  if (!any) return;
   waves.Velocity(velocity_x_, velocity_y_, velocity_z_);
-  for (int row = 0; row < cells_.rows; ++row) AdvanceRow(row, span_s, height_m);
+  float fastest = 0.0f;
+  for (const float speed : velocity_y_) fastest = std::max(fastest, std::abs(speed));
+  const double cells = fastest * span_s / cells_.cell_m;
+  const int reach = cells < cells_.rows ? static_cast<int>(cells) + 2 : cells_.rows;
+  for (int row = 0; row < cells_.rows; ++row) {
+    const auto within = [&](const std::vector<bool>& rows, int distance) {
+      for (int n = std::max(row - distance, 0); n <= std::min(row + distance, cells_.rows - 1);
+           ++n) {
+        if (rows[n]) return true;
+      }
+      return false;
+    };
+    if (within(high, 1) || within(foam, reach)) {
+      AdvanceRow(row, span_s, height_m);
+    } else {
+      std::fill_n(next_.begin() + static_cast<std::ptrdiff_t>(row) * cells_.columns, cells_.columns,
+                  0.0f);
+    }
+  }
   shares_.swap(next_);
 }
 

@@ -2,37 +2,47 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "common/base/check.h"
 #include "common/base/hash.h"
+#include "common/base/only_owner.h"
 #include "common/sea/constants.h"
+#include "server/world/iwave_design.h"
 
 namespace onesea::world {
 namespace {
 
+// Fields of one region that are written again: the present, what queries hold, and the past.
+constexpr std::size_t kFieldsKept = 32;
 constexpr float kHeightMaxM = 1e4f;  // of the mean; no wave is higher than the sea is deep
 
 }  // namespace
 
 struct InteractionLayer::Grid {
-  Grid(const Region& region_in, std::unique_ptr<WaveSolver> solver_in, const FoamOptions& options)
+  Grid(const Region& region_in, std::unique_ptr<WaveSolver> solver_in, int ticks_in,
+       const FoamOptions& options)
       : region(region_in),
         solver(std::move(solver_in)),
+        ticks(ticks_in),
         calm(solver->State()),
         foam(region_in.cells, options) {
     const std::size_t cells = region.cells.cells();
-    for (auto* values : {&source_m, &pressure_head_m, &solid, &rest_height_m}) {
+    for (auto* values : {&source_m, &pressure_head_m, &pressed_m, &solid, &rest_height_m}) {
       values->resize(cells);
     }
-    forcing = {region.cells, source_m, pressure_head_m, solid, rest_height_m};
+    forcing = {region.cells, region.traits, source_m, pressure_head_m, solid, rest_height_m};
+    if (ticks > 1) before_m.resize(cells);
+    if (ticks > 1) between_m.resize(cells);
   }
 
-  // The other's waves and foam where both lie; the other is calm there afterwards.
+  // The other's waves, foam and deposits where both lie; the other has none there afterwards.
   void Take(Grid& other) {
     const sea::CellRect both = sea::Intersection(region.cells, other.region.cells);
     if (both.cells() == 0) return;
     solver->Adopt(*other.solver);
+    stepped = other.stepped = true;
     std::vector<float> state = other.solver->State();
     const std::size_t plane = other.region.cells.cells();
     for (std::int64_t j = both.south; j < both.north(); ++j) {
@@ -42,9 +52,105 @@ struct InteractionLayer::Grid {
         float& share = foam.shares()[At(i, j)];
         share = std::max(share, other.foam.shares()[from]);
         other.foam.shares()[from] = 0.0f;
+        if (ticks > 1) {
+          before_m[At(i, j)] += std::exchange(other.before_m[from], 0.0f);
+          between_m[At(i, j)] += std::exchange(other.between_m[from], 0.0f);
+        }
+        if (other.was_pressed) pressed_m[At(i, j)] += std::exchange(other.pressed_m[from], 0.0f);
+        if (other.forcing.any()) TakeDeposits(At(i, j), other, from);
       }
     }
+    was_pressed |= other.was_pressed;
+    forcing.has_source |= other.forcing.has_source;
+    forcing.has_pressure |= other.forcing.has_pressure;
+    forcing.has_solid |= other.forcing.has_solid;
     other.solver->Restore(state);
+  }
+
+  void TakeDeposits(std::size_t at, Grid& other, std::size_t from) {
+    source_m[at] += std::exchange(other.source_m[from], 0.0f);
+    pressure_head_m[at] += std::exchange(other.pressure_head_m[from], 0.0f);
+    const float other_solid = std::exchange(other.solid[from], 0.0f);
+    if (other_solid > solid[at]) {
+      solid[at] = other_solid;
+      rest_height_m[at] = other.rest_height_m[from];
+    }
+  }
+
+  // The `steps`th tick; the deposits are used up, but sources wait for the solver's next step.
+  void Advance(std::int64_t steps) {
+    const int tick = static_cast<int>((steps - 1) % ticks);  // of those that one step covers
+    if (tick == 0) StepSolver();
+    if (ticks > 1) FindBetween(tick + 1);
+    was_pressed = forcing.has_pressure;
+    if (was_pressed) std::swap(pressure_head_m, pressed_m);
+    forcing.pressure_head_m = pressure_head_m;
+    const auto clear = [](bool& has, std::vector<float>& values) {
+      if (std::exchange(has, false)) std::fill(values.begin(), values.end(), 0.0f);
+    };
+    if (forcing.has_solid) std::fill(rest_height_m.begin(), rest_height_m.end(), 0.0f);
+    clear(forcing.has_pressure, pressure_head_m);
+    clear(forcing.has_solid, solid);
+    if (tick == 0) clear(forcing.has_source, source_m);
+  }
+
+  void StepSolver() {
+    StepForcing now;
+    if (forcing.has_source) now.source_m = source_m;
+    if (forcing.has_pressure) now.pressure_head_m = pressure_head_m;
+    if (forcing.has_solid) now.solid = solid, now.rest_height_m = rest_height_m;
+    if (ticks > 1) {
+      const auto height = solver->height_m();
+      std::copy(height.begin(), height.end(), before_m.begin());
+      // What is poured in is there at once.
+      for (std::size_t n = 0; n < now.source_m.size(); ++n) before_m[n] += now.source_m[n];
+    }
+    solver->Step(now);
+    stepped = true;
+  }
+
+  // The heights after `tick` of the ticks that the solver's last step covers.
+  void FindBetween(int tick) {
+    const auto after = solver->height_m();
+    const float share = static_cast<float>(tick) / static_cast<float>(ticks);
+    if (tick == ticks) {
+      std::copy(after.begin(), after.end(), between_m.begin());
+      return;
+    }
+    for (std::size_t n = 0; n < between_m.size(); ++n) {
+      // Land stays exactly dry.
+      between_m[n] = after[n] == 0.0f ? 0.0f : before_m[n] + share * (after[n] - before_m[n]);
+    }
+  }
+
+  std::span<const float> height_m() const {
+    return ticks > 1 ? std::span<const float>(between_m) : solver->height_m();
+  }
+
+  // Between the solver's steps they stay as they are, and copying is cheaper.
+  void FillVelocities(sea::InteractionField& field) {
+    if (latest != nullptr && !stepped) {
+      field.velocity_x = latest->velocity_x;
+      field.velocity_y = latest->velocity_y;
+      field.velocity_z = latest->velocity_z;
+      return;
+    }
+    for (auto* values : {&field.velocity_x, &field.velocity_y, &field.velocity_z}) {
+      values->resize(region.cells.cells());
+    }
+    solver->Velocity(field.velocity_x, field.velocity_y, field.velocity_z);
+    stepped = false;
+  }
+
+  // One that nobody reads any more: to write a field anew into memory that the system has to find
+  // first costs more than to compute it.
+  std::shared_ptr<sea::InteractionField> SpareField() {
+    for (const auto& field : published) {
+      if (IsOnlyOwner(field)) return field;
+    }
+    auto field = std::make_shared<sea::InteractionField>();
+    if (published.size() < kFieldsKept) published.push_back(field);
+    return field;
   }
 
   // False also for NaN, which passes every sum on.
@@ -61,11 +167,17 @@ struct InteractionLayer::Grid {
 
   Region region;
   std::unique_ptr<WaveSolver> solver;
-  std::vector<float> calm;  // the state without a wave
+  int ticks;                               // that one step of the solver covers
+  std::vector<float> before_m, between_m;  // heights before that step, and now; empty for 1
+  std::vector<float> calm;                 // the state without a wave
   InteractionFoam foam;
   std::vector<float> source_m, pressure_head_m, solid, rest_height_m;
+  std::vector<float> pressed_m;  // the pressure head of the last step
+  bool was_pressed = false;      // any of it isn't zero
   RegionForcing forcing;
-  bool forced = false;  // any of the four is not zero
+  std::vector<std::shared_ptr<sea::InteractionField>> published;
+  std::shared_ptr<const sea::InteractionField> latest;  // of them; null: not yet
+  bool stepped = true;                                  // the solver, since then
 };
 
 namespace {
@@ -104,6 +216,17 @@ void SpreadOver(const sea::CellRect& cells, Vec2d place, double radius_m, double
   });
 }
 
+// iWave is right whatever the step, as long as that is short beside its shortest waves, and costs
+// more than the others together. Between its steps heights are linear in time: (ω span)²/8 of a
+// wave of ω is lost half-way.
+int TicksPerStep(const SolverSpec& spec) {
+  constexpr double kPhaseMax = 0.5;  // of the shortest waves in a step
+  constexpr int kTicksMax = 3;
+  if (spec.kind != SolverKind::kIwave || !(spec.cells.cell_m > 0.0)) return 1;
+  const double omega = std::sqrt(sea::kGravity * kIwaveSymbolMax / spec.cells.cell_m);
+  return std::clamp(static_cast<int>(kPhaseMax / (omega * spec.step_s)), 1, kTicksMax);
+}
+
 }  // namespace
 
 InteractionLayer::InteractionLayer(InteractionOptions options) : options_(std::move(options)) {}
@@ -117,10 +240,12 @@ absl::StatusOr<std::unique_ptr<InteractionLayer::Grid>> InteractionLayer::MakeGr
   spec.step_s = options_.step_s;
   spec.depth_m = options_.depth_m;
   spec.terrain = options_.terrain;
-  spec.damping_per_s = options_.damping_per_s;
+  spec.damping_per_s = options_.damping_per_s + region.damping_per_s;
   spec.edge_cells = options_.edge_cells;
+  const int ticks = TicksPerStep(spec);
+  spec.step_s *= ticks;
   ONESEA_ASSIGN_OR_RETURN(std::unique_ptr<WaveSolver> solver, MakeSolver(spec));
-  return std::make_unique<Grid>(region, std::move(solver), options_.foam);
+  return std::make_unique<Grid>(region, std::move(solver), ticks, options_.foam);
 }
 
 absl::Status InteractionLayer::Place(std::span<const RegionAsk> asks) {
@@ -136,8 +261,9 @@ absl::Status InteractionLayer::Place(std::span<const RegionAsk> asks) {
   grids_.clear();
   for (const Region& region : LayOut(asks_)) {
     const auto old = std::find_if(dropped.begin(), dropped.end(),
-                                  [&](const auto& grid) { return grid->region == region; });
+                                  [&](const auto& grid) { return SameGrid(grid->region, region); });
     if (old != dropped.end()) {
+      (*old)->region.traits = (*old)->forcing.traits = region.traits;
       grids_.push_back(std::move(*old));
       dropped.erase(old);
       continue;
@@ -186,45 +312,44 @@ InteractionLayer::Grid* InteractionLayer::BestAt(Vec2d place) {
 
 RegionForcing* InteractionLayer::ForcingAt(Vec2d place) {
   Grid* grid = BestAt(place);
-  if (grid == nullptr) return nullptr;
-  grid->forced = true;
-  return &grid->forcing;
+  return grid == nullptr ? nullptr : &grid->forcing;
 }
 
-void InteractionLayer::ForEachForcing(const std::function<bool(RegionForcing&)>& fill) {
-  for (const auto& grid : grids_) {
-    if (fill(grid->forcing)) grid->forced = true;
-  }
+void InteractionLayer::ForEachForcing(const std::function<void(RegionForcing&)>& fill) {
+  for (const auto& grid : grids_) fill(grid->forcing);
 }
 
 bool InteractionLayer::AddSource(Vec2d place, double radius_m, double volume_m3) {
   if (!AllFinite({place.x, place.y, radius_m, volume_m3})) return false;
-  const RegionForcing* forcing = ForcingAt(place);
+  RegionForcing* forcing = ForcingAt(place);
   if (forcing == nullptr) return false;
   const double cell_m2 = forcing->cells.cell_m * forcing->cells.cell_m;
   SpreadOver(forcing->cells, place, radius_m, volume_m3 / cell_m2, forcing->source_m);
+  forcing->has_source = true;
   return true;
 }
 
 bool InteractionLayer::AddPressure(Vec2d place, double radius_m, double force_n) {
   if (!AllFinite({place.x, place.y, radius_m, force_n})) return false;
-  const RegionForcing* forcing = ForcingAt(place);
+  RegionForcing* forcing = ForcingAt(place);
   if (forcing == nullptr) return false;
   const double newton_per_m =
       sea::kWaterDensityKgPerM3 * sea::kGravity * forcing->cells.cell_m * forcing->cells.cell_m;
   SpreadOver(forcing->cells, place, radius_m, force_n / newton_per_m, forcing->pressure_head_m);
+  forcing->has_pressure = true;
   return true;
 }
 
 bool InteractionLayer::AddSolid(Vec2d place, double radius_m, double rest_height_m) {
   if (!AllFinite({place.x, place.y, radius_m, rest_height_m})) return false;
-  const RegionForcing* forcing = ForcingAt(place);
+  RegionForcing* forcing = ForcingAt(place);
   if (forcing == nullptr) return false;
   ForDisc(forcing->cells, place, radius_m + 0.5 * forcing->cells.cell_m,
           [&](std::size_t at, double) {
             forcing->solid[at] = 1.0f;
             forcing->rest_height_m[at] = static_cast<float>(rest_height_m);
           });
+  forcing->has_solid = true;
   return true;
 }
 
@@ -242,25 +367,33 @@ bool InteractionLayer::AddFoam(Vec2d place, double radius_m, double share) {
 void InteractionLayer::Step() {
   ++steps_;
   for (const auto& grid : grids_) {
-    StepForcing forcing;
-    if (grid->forced) {
-      forcing = {grid->source_m, grid->pressure_head_m, grid->solid, grid->rest_height_m};
-    }
-    grid->solver->Step(forcing);
-    if (grid->forced) {
-      for (auto* values :
-           {&grid->source_m, &grid->pressure_head_m, &grid->solid, &grid->rest_height_m}) {
-        std::fill(values->begin(), values->end(), 0.0f);
-      }
-      grid->forced = false;
-    }
+    grid->Advance(steps_);
     if (steps_ % kFoamSteps == 0) {
       if (!grid->IsSane()) {
         grid->solver->Restore(grid->calm);
+        grid->stepped = true;
+        std::fill(grid->before_m.begin(), grid->before_m.end(), 0.0f);
+        std::fill(grid->between_m.begin(), grid->between_m.end(), 0.0f);
         ++resets_;
       }
       grid->foam.Advance(kFoamSteps * options_.step_s, *grid->solver);
     }
+  }
+}
+
+void InteractionLayer::AddFelt(std::span<const Vec2d> places,
+                               std::span<sea::InteractionFelt> sum) const {
+  const auto some = [](const std::vector<float>& values, bool any) {
+    return any ? std::span<const float>(values) : std::span<const float>();
+  };
+  for (const auto& grid : grids_) {
+    std::span<const float> velocity_x, velocity_y;
+    if (grid->latest != nullptr) {
+      velocity_x = grid->latest->velocity_x;
+      velocity_y = grid->latest->velocity_y;
+    }
+    sea::AddFelt(grid->region.cells, grid->height_m(), some(grid->pressed_m, grid->was_pressed),
+                 velocity_x, velocity_y, places, sum);
   }
 }
 
@@ -269,20 +402,21 @@ std::shared_ptr<const sea::InteractionSnapshot> InteractionLayer::Snapshot(std::
   auto snapshot = std::make_shared<sea::InteractionSnapshot>();
   snapshot->tick = tick;
   for (const auto& grid : grids_) {
-    auto field = std::make_shared<sea::InteractionField>();
+    std::shared_ptr<sea::InteractionField> field = grid->SpareField();
     field->cells = grid->region.cells;
-    const auto height = grid->solver->height_m();
+    const auto height = grid->height_m();
     field->height_m.assign(height.begin(), height.end());
     if (velocities) {
+      grid->FillVelocities(*field);
+      grid->latest = field;
+    } else {
       for (auto* values : {&field->velocity_x, &field->velocity_y, &field->velocity_z}) {
-        values->resize(height.size());
+        values->clear();
       }
-      grid->solver->Velocity(field->velocity_x, field->velocity_y, field->velocity_z);
     }
     const auto foam = std::as_const(grid->foam).shares();
-    if (std::any_of(foam.begin(), foam.end(), [](float share) { return share > 0.0f; })) {
-      field->foam.assign(foam.begin(), foam.end());
-    }
+    const bool any = std::any_of(foam.begin(), foam.end(), [](float share) { return share > 0; });
+    field->foam.assign(foam.begin(), any ? foam.end() : foam.begin());
     snapshot->fields.push_back(std::move(field));
   }
   return snapshot;
@@ -292,7 +426,14 @@ InteractionState InteractionLayer::State() const {
   InteractionState state{.steps = steps_, .asks = asks_, .regions = {}};
   for (const auto& grid : grids_) {
     const auto foam = std::as_const(grid->foam).shares();
-    state.regions.push_back({grid->region, grid->solver->State(), {foam.begin(), foam.end()}});
+    state.regions.push_back({grid->region,
+                             grid->solver->State(),
+                             {foam.begin(), foam.end()},
+                             {},
+                             grid->before_m,
+                             grid->between_m,
+                             grid->source_m});
+    if (grid->was_pressed) state.regions.back().pressed_m = grid->pressed_m;
   }
   return state;
 }
@@ -303,14 +444,25 @@ absl::Status InteractionLayer::Restore(const InteractionState& state) {
   std::vector<std::unique_ptr<Grid>> grids;
   for (const auto& saved : state.regions) {
     ONESEA_ASSIGN_OR_RETURN(std::unique_ptr<Grid> grid, MakeGrid(saved.region));
-    if (saved.waves.size() != grid->calm.size() ||
-        saved.foam.size() != saved.region.cells.cells()) {
+    const std::size_t cells = saved.region.cells.cells();
+    if (saved.waves.size() != grid->calm.size() || saved.foam.size() != cells ||
+        saved.before_m.size() != grid->before_m.size() || saved.source_m.size() != cells ||
+        saved.between_m.size() != grid->between_m.size() ||
+        (!saved.pressed_m.empty() && saved.pressed_m.size() != cells)) {
       return absl::InvalidArgumentError(
-          absl::StrCat("region state of ", saved.waves.size(), " and ", saved.foam.size(),
-                       " numbers, not ", grid->calm.size(), " and ", saved.region.cells.cells()));
+          absl::StrCat("region state of ", saved.waves.size(), ", ", saved.foam.size(), " and ",
+                       saved.pressed_m.size(), " numbers, not ", grid->calm.size(), ", ", cells,
+                       " and 0 or ", cells));
     }
     grid->solver->Restore(saved.waves);
     std::copy(saved.foam.begin(), saved.foam.end(), grid->foam.shares().begin());
+    std::copy(saved.pressed_m.begin(), saved.pressed_m.end(), grid->pressed_m.begin());
+    grid->was_pressed = !saved.pressed_m.empty();
+    std::copy(saved.before_m.begin(), saved.before_m.end(), grid->before_m.begin());
+    std::copy(saved.between_m.begin(), saved.between_m.end(), grid->between_m.begin());
+    std::copy(saved.source_m.begin(), saved.source_m.end(), grid->source_m.begin());
+    grid->forcing.has_source = std::any_of(saved.source_m.begin(), saved.source_m.end(),
+                                           [](float source) { return source != 0.0f; });
     grids.push_back(std::move(grid));
   }
   grids_ = std::move(grids);
@@ -337,8 +489,13 @@ std::uint64_t InteractionLayer::Hash() const {
   for (const auto& grid : grids_) {
     hash.Add(static_cast<std::uint8_t>(grid->region.kind));
     add_cells(grid->region.cells);
-    for (const float value : grid->solver->State()) hash.Add(value);
-    for (const float value : std::as_const(grid->foam).shares()) hash.Add(value);
+    hash.Add(grid->region.damping_per_s);
+    hash.AddFloats(grid->solver->State());
+    hash.AddFloats(std::as_const(grid->foam).shares());
+    if (grid->was_pressed) hash.AddFloats(grid->pressed_m);
+    if (grid->forcing.has_source) hash.AddFloats(grid->source_m);
+    hash.AddFloats(grid->before_m);
+    hash.AddFloats(grid->between_m);
   }
   return hash.value();
 }

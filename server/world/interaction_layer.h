@@ -26,6 +26,10 @@
 /// equations are linear, and each deposit enters exactly one of them, that in which its place lies
 /// furthest from the border. (kShallowWater's shore is not linear: give it disjoint places.)
 ///
+/// iWave, the dearest, steps only every second or third tick where its shortest waves are slow
+/// enough (cells of 0.35 m and more at 60 Hz); in between its heights go over linearly, sources
+/// wait for the next step, and velocities are those of up to two ticks ahead.
+///
 /// Deterministic: same asks, deposits and order, same bits. Not thread-safe; snapshots are.
 namespace onesea::world {
 
@@ -33,24 +37,30 @@ struct InteractionOptions {
   double step_s = 1.0 / 60.0;
   double depth_m = 0.0;  ///< of regions beside terrain; 0 = deep
   std::shared_ptr<const sea::Terrain> terrain = {};
-  double damping_per_s = 0.02;
+  double damping_per_s = 0.02;  ///< of every region, beside what is asked for
   int edge_cells = 16;
   FoamOptions foam = {};
 };
 
 /// One region's forcing for the next step, to be filled cell by cell with finite numbers;
-/// (rows x columns) each. StepForcing says what they are.
+/// (rows x columns) each. StepForcing says what they are. What isn't announced isn't read.
 struct RegionForcing {
   sea::CellRect cells;
+  RegionTraits traits;
   std::span<float> source_m, pressure_head_m, solid, rest_height_m;
+  bool has_source = false, has_pressure = false, has_solid = false;  ///< set by whoever writes
+  bool any() const { return has_source || has_pressure || has_solid; }
 };
 
 /// Everything that the next step depends on.
 struct InteractionState {
   struct RegionState {
     Region region;
-    std::vector<float> waves;  ///< WaveSolver::State
-    std::vector<float> foam;   ///< (rows x columns)
+    std::vector<float> waves;                ///< WaveSolver::State
+    std::vector<float> foam;                 ///< (rows x columns)
+    std::vector<float> pressed_m;            ///< (rows x columns), or empty: nothing pressed
+    std::vector<float> before_m, between_m;  ///< likewise, or empty: the solver steps every tick
+    std::vector<float> source_m;             ///< (rows x columns), waiting
   };
   std::int64_t steps = 0;
   std::vector<PlacedAsk> asks;
@@ -62,7 +72,7 @@ class InteractionLayer {
   explicit InteractionLayer(InteractionOptions options);
   ~InteractionLayer();
 
-  /// Lays out the regions anew; deposits into regions that change are lost. Asks that are invalid
+  /// Lays out the regions anew; waves, foam and deposits go over to them. Asks that are invalid
   /// or whose solver can't be made (no water there, too many sub-steps) go without a region: the
   /// first such error is returned, the others are placed all the same. Cheap where nothing changes.
   absl::Status Place(std::span<const RegionAsk> asks);
@@ -73,8 +83,8 @@ class InteractionLayer {
   /// until the next Place.
   RegionForcing* ForcingAt(Vec2d place);
 
-  /// Calls `fill` with each region's forcing; true says that it put something there.
-  void ForEachForcing(const std::function<bool(RegionForcing&)>& fill);
+  /// Calls `fill` with each region's forcing.
+  void ForEachForcing(const std::function<void(RegionForcing&)>& fill);
 
   /// Adds water [m³] over a disc as (1 - r²/R²)², R at least 1.5 cells; what is added is
   /// `volume_m3` exactly but for rounding. False: no region there.
@@ -90,6 +100,11 @@ class InteractionLayer {
   /// numbers of this world (forced beyond all measure) is calm again.
   void Step();
   int resets() const { return resets_; }  ///< how often that happened
+
+  /// Adds what hulls feel of the layer at these places: the heights plus the pressure heads of the
+  /// last step, and the velocities of the last Snapshot() that has them. Cost: 25 ns a place and
+  /// region, 40 where hulls press.
+  void AddFelt(std::span<const Vec2d> places, std::span<sea::InteractionFelt> sum) const;
 
   /// `velocities` costs another 0.1 ms a region of 256 x 256.
   std::shared_ptr<const sea::InteractionSnapshot> Snapshot(std::int64_t tick,

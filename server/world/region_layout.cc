@@ -32,13 +32,21 @@ std::int64_t CellsOf(std::span<const Region> regions) {
 double Area(const sea::CellRect& cells) { return static_cast<double>(cells.cells()); }
 
 bool CanMerge(const Region& a, const Region& b) {
-  if (a.kind != b.kind || a.cells.cell_m != b.cells.cell_m) return false;
+  if (a.kind != b.kind || a.cells.cell_m != b.cells.cell_m || a.damping_per_s != b.damping_per_s) {
+    return false;
+  }
   const sea::CellRect common = sea::Intersection(a.cells, b.cells);
   if (common.cells() == 0) return false;
   const sea::CellRect whole = sea::BoundingRect(a.cells, b.cells);
   const double covered = Area(a.cells) + Area(b.cells) - Area(common);
   return whole.columns <= kRegionSideMax && whole.rows <= kRegionSideMax &&
          Area(whole) <= kMergeExcessMax * covered;
+}
+
+RegionTraits Both(const RegionTraits& a, const RegionTraits& b) {
+  return {.height_step_m = std::min(a.height_step_m, b.height_step_m),
+          .frames_per_update = std::min(a.frames_per_update, b.frames_per_update),
+          .rain_drops_per_m2_s = std::max(a.rain_drops_per_m2_s, b.rain_drops_per_m2_s)};
 }
 
 }  // namespace
@@ -62,6 +70,10 @@ absl::Status ValidateRegionAsk(const RegionAsk& ask) {
     if (absl::Status s = CheckInRange(name, value, kRegionSideMin, kRegionSideMax); !s.ok()) {
       return s;
     }
+  }
+  if (absl::Status s = CheckInRange("region.damping_per_s", ask.damping_per_s, 0.0, 10.0);
+      !s.ok()) {
+    return s;
   }
   const auto check_place = [&ask](const char* name, double centre_m, int cells) {
     // All of the region lies within the world, wherever it is snapped to.
@@ -93,7 +105,7 @@ std::vector<PlacedAsk> SnapAsks(std::span<const RegionAsk> asks,
         cells = old.cells;
       }
     }
-    placed.push_back({ask.id, ask.kind, cells});
+    placed.push_back({ask.id, ask.kind, cells, ask.damping_per_s, ask.traits});
   }
   return placed;
 }
@@ -101,7 +113,7 @@ std::vector<PlacedAsk> SnapAsks(std::span<const RegionAsk> asks,
 std::vector<Region> LayOut(std::span<const PlacedAsk> asks) {
   std::vector<Region> regions;
   for (const PlacedAsk& ask : asks) {
-    regions.push_back({ask.kind, ask.cells});
+    regions.push_back({ask.kind, ask.cells, ask.damping_per_s, ask.traits});
     // A region that has grown may now reach others, so begin again until nothing changes.
     for (bool merged = true; merged;) {
       merged = false;
@@ -109,6 +121,7 @@ std::vector<Region> LayOut(std::span<const PlacedAsk> asks) {
         for (std::size_t j = i + 1; j < regions.size() && !merged; ++j) {
           if (!CanMerge(regions[i], regions[j])) continue;
           regions[i].cells = sea::BoundingRect(regions[i].cells, regions[j].cells);
+          regions[i].traits = Both(regions[i].traits, regions[j].traits);
           regions.erase(regions.begin() + static_cast<std::ptrdiff_t>(j));
           merged = true;
         }

@@ -12,10 +12,19 @@
 /// Idea: a region is asked for by size and centre. Its rectangle is snapped to multiples of
 /// kRegionSideStep cells, so that it moves in whole tiles of the wire and all coarse grids stay
 /// aligned, and it stays until the centre is kStayCells off. Overlapping rectangles of the same
-/// kind and cell become one where their bounding rectangle isn't much larger than both; else they
-/// stand side by side, and their heights add. Everything follows from the asks, their order and
-/// the rectangles before: the same on every machine.
+/// kind, cell and damping become one where their bounding rectangle isn't much larger than both;
+/// else they stand side by side, and their heights add. Everything follows from the asks, their
+/// order and the rectangles before: the same on every machine.
 namespace onesea::world {
+
+/// What a region has beside its grid. Of merged ones the finest step, the highest rate and the
+/// heaviest rain hold for all.
+struct RegionTraits {
+  double height_step_m = 1e-3;  ///< on the wire
+  int frames_per_update = 1;    ///< on the wire
+  double rain_drops_per_m2_s = 0.0;
+  friend bool operator==(const RegionTraits&, const RegionTraits&) = default;
+};
 
 struct RegionAsk {
   std::uint64_t id = 0;  ///< of the asker: a body, or a place; unique among the asks
@@ -23,7 +32,9 @@ struct RegionAsk {
   double cell_m = 0.5;
   int columns = 256;  ///< rounded up to multiples of kRegionSideStep
   int rows = 256;
-  Vec2d centre_m;  ///< of the body that it follows, or of the place where it stands
+  Vec2d centre_m;              ///< of the body that it follows, or of the place where it stands
+  double damping_per_s = 0.0;  ///< beside the layer's own; [0, 10]
+  RegionTraits traits = {};
 };
 
 /// A snapped ask: remembered, so that a body to and fro over a boundary moves no memory.
@@ -31,13 +42,21 @@ struct PlacedAsk {
   std::uint64_t id = 0;
   SolverKind kind = SolverKind::kIwave;
   sea::CellRect cells;
+  double damping_per_s = 0.0;
+  RegionTraits traits = {};
 };
 
 struct Region {
   SolverKind kind = SolverKind::kIwave;
   sea::CellRect cells;
-  friend bool operator==(const Region&, const Region&) = default;
+  double damping_per_s = 0.0;
+  RegionTraits traits = {};
 };
+
+/// Can the waves of one go on in the other as they are?
+inline bool SameGrid(const Region& a, const Region& b) {
+  return a.kind == b.kind && a.cells == b.cells && a.damping_per_s == b.damping_per_s;
+}
 
 inline constexpr int kStayCells = 24;  // of the centre; half a step is 16
 /// A merged region has at most this many times the cells that its parts cover.

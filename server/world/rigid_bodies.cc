@@ -226,6 +226,10 @@ std::vector<BodyId> RigidBodies::Ids() const {
   for (const auto& [id, entry] : bodies_) ids.push_back(id);
   return ids;
 }
+const SteppedBody* RigidBodies::FindBody(BodyId id) const {
+  const auto found = bodies_.find(id);
+  return found == bodies_.end() ? nullptr : &found->second;
+}
 const BodyState* RigidBodies::FindState(BodyId id) const {
   const auto found = bodies_.find(id);
   return found == bodies_.end() ? nullptr : &found->second.state;

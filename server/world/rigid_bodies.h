@@ -80,6 +80,8 @@ class RigidBodies {
   void Step(WaterSource& water, const Air& air);
 
   std::vector<BodyId> Ids() const;
+  /// Null where there is no such body; valid until it is removed or all are Restore()d.
+  const SteppedBody* FindBody(BodyId id) const;
   /// Null where there is no such body; valid until the next change.
   const BodyState* FindState(BodyId id) const;
   const BodyModel* FindModel(BodyId id) const;

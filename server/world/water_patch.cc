@@ -1,6 +1,7 @@
 #include "server/world/water_patch.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "common/base/check.h"
 #include "common/base/real_math.h"
@@ -36,7 +37,14 @@ void WaterPatch::FindHighest() {
 }
 
 WaterSampler::WaterSampler(const WaterPatch& of)
-    : patch(&of), cells_per_m(1.0 / of.cell_m), wavenumber{}, bottom_image{}, deep(true) {
+    : patch(&of),
+      cells_per_m(1.0 / of.cell_m),
+      wavenumber{},
+      bottom_image{},
+      least_decay{},
+      per_sum{},
+      per_difference{},
+      deep(true) {
   // Longer than that, a wave's vertical velocity is linear in depth anyway, and 1 - image keeps its
   // digits.
   constexpr double kWavenumberDepthMin = 1e-2;
@@ -46,6 +54,9 @@ WaterSampler::WaterSampler(const WaterPatch& of)
     if (!bottomless && k * of.depth_m < kWavenumberDepthMin) k = kWavenumberDepthMin / of.depth_m;
     wavenumber[b] = static_cast<float>(k);
     bottom_image[b] = bottomless ? 0.0f : static_cast<float>(real::Exp(-2.0 * k * of.depth_m));
+    least_decay[b] = std::sqrt(bottom_image[b]);
+    per_sum[b] = 1.0f / (1.0f + bottom_image[b]);
+    per_difference[b] = 1.0f / (1.0f - bottom_image[b]);
     deep = deep && bottom_image[b] < 1e-7f;
   }
 }

@@ -63,8 +63,11 @@ struct WaterSampler {
   double cells_per_m;
   // Padded, so that whole vectors can be read.
   float wavenumber[16];
-  float bottom_image[16];  ///< exp(-2kH)
-  bool deep;               ///< no band feels the bottom
+  float bottom_image[16];    ///< exp(-2kH)
+  float least_decay[16];     ///< exp(-kH): at the bottom
+  float per_sum[16];         ///< 1 / (1 + exp(-2kH))
+  float per_difference[16];  ///< 1 / (1 - exp(-2kH)), 0 where that is none
+  bool deep;                 ///< no band feels the bottom
 };
 
 /// Bilinear in the plane; outside the patch its edge. Cost: some 50 ns for 8 bands. Error of the

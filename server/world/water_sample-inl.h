@@ -57,34 +57,29 @@ inline WaterPoint Sample(const WaterSampler& sampler, Vec3d place) {
   const double depth = double{height} - above_level_m;
 
   alignas(16) float sum[4] = {};  // the height that is felt here, and the velocity
-  if (depth <= 0.0) {
-    for (int n = 0; n < record; n += 4) {
-      for (int c = 0; c < 4; ++c) sum[c] += bands[n + c];
+  alignas(16) float decay[kWaterBandsMax], vertical[kWaterBandsMax];
+  const auto d = static_cast<float>(std::max(0.0, depth));  // in the air that of the surface
+  for (int b = 0; b < kWaterBandsMax; ++b) decay[b] = ExpMinus(sampler.wavenumber[b] * d);
+  if (sampler.deep) {
+    for (int b = 0; b < patch.bands; ++b) {
+      for (int c = 0; c < 4; ++c) sum[c] += bands[4 * b + c] * decay[b];
     }
   } else {
-    alignas(16) float decay[kWaterBandsMax], vertical[kWaterBandsMax];
-    const auto d = static_cast<float>(depth);
-    for (int b = 0; b < kWaterBandsMax; ++b) decay[b] = ExpMinus(sampler.wavenumber[b] * d);
-    if (sampler.deep) {
-      for (int b = 0; b < patch.bands; ++b) {
-        for (int c = 0; c < 4; ++c) sum[c] += bands[4 * b + c] * decay[b];
-      }
-    } else {
-      for (int b = 0; b < kWaterBandsMax; ++b) {
-        const float image = sampler.bottom_image[b];
-        // At or below the bottom: what is left there.
-        const float down = std::max(decay[b], std::sqrt(image));
-        const float up = image / down;
-        decay[b] = (down + up) / (1.0f + image);
-        vertical[b] = (down - up) / (1.0f - image);
-      }
-      for (int b = 0; b < patch.bands; ++b) {
-        for (int c = 0; c < 3; ++c) sum[c] += bands[4 * b + c] * decay[b];
-        sum[3] += bands[4 * b + 3] * vertical[b];
-      }
+    for (int b = 0; b < kWaterBandsMax; ++b) {
+      const float image = sampler.bottom_image[b];
+      // At or below the bottom: what is left there.
+      const float down = std::max(decay[b], sampler.least_decay[b]);
+      const float up = image / down;
+      decay[b] = (down + up) * sampler.per_sum[b];
+      vertical[b] = (down - up) * sampler.per_difference[b];
+    }
+    for (int b = 0; b < patch.bands; ++b) {
+      for (int c = 0; c < 3; ++c) sum[c] += bands[4 * b + c] * decay[b];
+      sum[3] += bands[4 * b + 3] * vertical[b];
     }
   }
-  return {depth, std::max(0.0, depth - (double{height} - double{sum[0]})),
+  const double lost = double{height} - double{sum[0]};
+  return {depth, depth > 0.0 ? std::max(0.0, depth - lost) : 0.0,
           patch.current_m_per_s + Vec3d{sum[1], sum[2], sum[3]}};
 }
 

@@ -21,74 +21,35 @@ Corner OnSurface(const Corner& a, const Corner& b, double share) {
   return {mix(a.at_m, b.at_m), 0.0, 0.0, mix(a.relative_m_per_s, b.relative_m_per_s)};
 }
 
+// Pre: there is room.
+void AddPiece(const Corner (&corners)[3], Vec3d normal, double area_m2, WetPieces& pieces) {
+  const std::size_t n = pieces.count++;
+  pieces.normal_x[n] = normal.x, pieces.normal_y[n] = normal.y, pieces.normal_z[n] = normal.z;
+  pieces.area[n] = area_m2;
+  for (int k = 0; k < 3; ++k) {
+    const Corner& from = corners[k];
+    WetPieces::Corner& to = pieces.corner[k];
+    to.x[n] = from.at_m.x, to.y[n] = from.at_m.y, to.z[n] = from.at_m.z;
+    to.depth[n] = from.depth_m, to.head[n] = from.head_m;
+    to.rx[n] = from.relative_m_per_s.x;
+    to.ry[n] = from.relative_m_per_s.y;
+    to.rz[n] = from.relative_m_per_s.z;
+  }
+}
+
+// The lanes behind the last piece are nothing, not what a former hull left there.
+void PadPieces(WetPieces& pieces) {
+  const std::size_t count = pieces.count;
+  const Corner nowhere{};
+  while (pieces.count % kWetBlock != 0) AddPiece({nowhere, nowhere, nowhere}, {}, 0.0, pieces);
+  pieces.count = count;
+}
+
+Vec3d VectorOf(const std::array<double, kWetSums>& sums, int at) {
+  return {sums[at], sums[at + 1], sums[at + 2]};
+}
+
 }  // namespace
-
-// Everything per rho g (pressure) or rho/2 (drag) while it is summed.
-struct WetHull::Sums {
-  Vec3d up;  // in body axes
-  wire::Drag drag;
-
-  Vec3d pressure_force, pressure_torque;
-  Vec3d drag_force, drag_torque;
-  double volume = 0.0;
-  Vec3d volume_moment;
-  double raise = 0.0;  // of the volume's centre along up
-  double area = 0.0;
-  Vec3d area_moment, area_relative;
-  int wet = 0;
-
-  void Start(const std::array<double, kWetSums>& whole);
-  void Add(const Corner& a, const Corner& b, const Corner& c, Vec3d normal, double area_m2);
-};
-
-void WetHull::Sums::Start(const std::array<double, kWetSums>& whole) {
-  const auto vector = [&](int at) { return Vec3d{whole[at], whole[at + 1], whole[at + 2]}; };
-  pressure_force = vector(kPressureForce);
-  pressure_torque = vector(kPressureTorque);
-  drag_force = vector(kDragForce);
-  drag_torque = vector(kDragTorque);
-  volume = whole[kVolume];
-  volume_moment = vector(kVolumeMoment);
-  raise = whole[kRaise];
-  area = whole[kArea];
-  area_moment = vector(kAreaMoment);
-  area_relative = vector(kAreaRelative);
-}
-
-void WetHull::Sums::Add(const Corner& a, const Corner& b, const Corner& c, Vec3d normal,
-                        double area_m2) {
-  const double pa = a.head_m, pb = b.head_m, pc = c.head_m;
-  const double da = a.depth_m, db = b.depth_m, dc = c.depth_m;
-  const Vec3d sum = a.at_m + b.at_m + c.at_m;
-  const double head = pa + pb + pc, depth = da + db + dc;
-  const double twelfth = area_m2 * (1.0 / 12.0);
-
-  // ∫ p dS and ∫ x p dS of linear p: exact.
-  pressure_force = pressure_force - (4.0 * twelfth * head) * normal;
-  const Vec3d moment = twelfth * (head * sum + pa * a.at_m + pb * b.at_m + pc * c.at_m);
-  pressure_torque = pressure_torque - Cross(moment, normal);
-
-  // The volume as columns from the hull up to the surface.
-  const double upward = Dot(normal, up) * twelfth;
-  volume -= 4.0 * upward * depth;
-  volume_moment = volume_moment - upward * (depth * sum + da * a.at_m + db * b.at_m + dc * c.at_m);
-  raise -= 0.5 * upward * (depth * depth + da * da + db * db + dc * dc);
-
-  const Vec3d w = (1.0 / 3.0) * (a.relative_m_per_s + b.relative_m_per_s + c.relative_m_per_s);
-  const Vec3d centre = (1.0 / 3.0) * sum;
-  area += area_m2;
-  area_moment = area_moment + area_m2 * centre;
-  area_relative = area_relative + area_m2 * w;
-
-  const double into = -Dot(w, normal);  // speed at which the piece moves into the water
-  const double speed = Norm(w);
-  const double along = drag.friction * speed;
-  const double against =
-      into > 0.0 ? drag.pressure * into + drag.planing * speed : -drag.suction * into;
-  const Vec3d force = area_m2 * (along * w + ((along - against) * into) * normal);
-  drag_force = drag_force + force;
-  drag_torque = drag_torque + Cross(centre, force);
-}
 
 WetHull::WetHull(const TriangleMesh& mesh, Vec3d centre_of_mass_m) {
   vertices_m_.reserve(mesh.vertices.size());
@@ -168,7 +129,7 @@ void WetHull::Bounds(double height_m, Vec3d& low_m, Vec3d& high_m) const {
   }
 }
 
-void WetHull::AddClipped(std::uint32_t triangle, const WetScratch& scratch, Sums& sums) const {
+void WetHull::Clip(std::uint32_t triangle, WetScratch& scratch) const {
   const auto& t = triangles_[triangle];
   const auto wet = [&](int k) { return scratch.depth[t[k % 3]] > 0.0; };
   const bool one = wet(0) + wet(1) + wet(2) == 1;
@@ -191,12 +152,12 @@ void WetHull::AddClipped(std::uint32_t triangle, const WetScratch& scratch, Sums
   const double ac = share(a, c);
   if (one) {
     const double ab = share(a, b);
-    sums.Add(a, OnSurface(a, b, ab), OnSurface(a, c, ac), normal, area * ab * ac);
+    AddPiece({a, OnSurface(a, b, ab), OnSurface(a, c, ac)}, normal, area * ab * ac, scratch.pieces);
   } else {
     const double bc = share(b, c);
     const Corner on_bc = OnSurface(b, c, bc);
-    sums.Add(a, b, on_bc, normal, area * bc);
-    sums.Add(a, on_bc, OnSurface(a, c, ac), normal, area * ac * (1.0 - bc));
+    AddPiece({a, b, on_bc}, normal, area * bc, scratch.pieces);
+    AddPiece({a, on_bc, OnSurface(a, c, ac)}, normal, area * ac * (1.0 - bc), scratch.pieces);
   }
 }
 
@@ -210,32 +171,33 @@ WetForces WetHull::Evaluate(const HullMotion& motion, const WaterPatch& water,
   scratch.Reserve(mesh_);
   SampleVertices(mesh_, {motion.pose.centre_m, turn, velocity, spin, highest + 1.001 * edge_max_m_},
                  WaterSampler(water), scratch);
-  Sums sums;
-  sums.up = turn.TransposeTimes({0.0, 0.0, 1.0});
-  sums.drag = drag;
-  std::array<double, kWetSums> whole;
-  sums.wet = SumSubmerged(
-      mesh_, {sums.up, drag.friction, drag.pressure, drag.suction, drag.planing}, scratch, whole);
-  sums.Start(whole);
-  for (std::uint32_t triangle : scratch.clipped) AddClipped(triangle, scratch, sums);
-  sums.wet += static_cast<int>(scratch.clipped.size());
-
+  const WetCoefficients coefficients{turn.TransposeTimes({0.0, 0.0, 1.0}), drag.friction,
+                                     drag.pressure, drag.suction, drag.planing};
+  std::array<double, kWetSums> sums;
   WetForces out;
+  out.wet_triangles = SumSubmerged(mesh_, coefficients, scratch, sums);
+  out.wet_triangles += static_cast<int>(scratch.clipped.size());
+  scratch.pieces.count = 0;
+  scratch.pieces.Reserve(2 * scratch.clipped.size());
+  for (std::uint32_t triangle : scratch.clipped) Clip(triangle, scratch);
+  PadPieces(scratch.pieces);
+  SumPieces(scratch.pieces, coefficients, sums);
+
   const double weight = density_kg_per_m3 * sea::kGravity, half = 0.5 * density_kg_per_m3;
-  out.pressure_force_n = weight * sums.pressure_force;
-  out.pressure_torque_n_m = weight * sums.pressure_torque;
-  out.drag_force_n = half * sums.drag_force;
-  out.drag_torque_n_m = half * sums.drag_torque;
-  out.volume_m3 = std::max(0.0, sums.volume);
-  out.wet_area_m2 = sums.area;
-  out.wet_triangles = sums.wet;
-  if (sums.volume > 0.0) {
-    out.volume_centre_m = (1.0 / sums.volume) * (sums.volume_moment + sums.raise * sums.up);
+  out.pressure_force_n = weight * VectorOf(sums, kPressureForce);
+  out.pressure_torque_n_m = weight * VectorOf(sums, kPressureTorque);
+  out.drag_force_n = half * VectorOf(sums, kDragForce);
+  out.drag_torque_n_m = half * VectorOf(sums, kDragTorque);
+  const double volume = sums[kVolume], area = sums[kArea];
+  out.volume_m3 = std::max(0.0, volume);
+  out.wet_area_m2 = area;
+  if (volume > 0.0) {
+    out.volume_centre_m =
+        (1.0 / volume) * (VectorOf(sums, kVolumeMoment) + sums[kRaise] * coefficients.up);
   }
-  if (sums.area > 0.0) {
-    const double inverse = 1.0 / sums.area;
-    out.water_velocity_m_per_s =
-        inverse * sums.area_relative + velocity + Cross(spin, inverse * sums.area_moment);
+  if (area > 0.0) {
+    out.water_velocity_m_per_s = (1.0 / area) * VectorOf(sums, kAreaRelative) + velocity +
+                                 Cross(spin, (1.0 / area) * VectorOf(sums, kAreaMoment));
   }
   return out;
 }

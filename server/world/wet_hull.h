@@ -57,10 +57,9 @@ class WetHull {
   std::size_t triangle_count() const { return triangles_.size(); }
 
  private:
-  struct Sums;
   Vec3d TwiceArea(const std::array<std::uint32_t, 3>& triangle) const;
   void FillBlocks();
-  void AddClipped(std::uint32_t triangle, const WetScratch& scratch, Sums& sums) const;
+  void Clip(std::uint32_t triangle, WetScratch& scratch) const;
 
   std::vector<Vec3d> vertices_m_;                        // from the centre of mass
   std::vector<std::array<std::uint32_t, 3>> triangles_;  // without slivers, lowest first

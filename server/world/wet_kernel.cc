@@ -4,7 +4,7 @@
 //   side by side, so that no gather is needed; decays by lanes of bands.
 // Triangles: lanes are triangles, corners are gathered. Sums are kept in eight parts and joined in
 //   one order, nothing is fused: the same bits on every SIMD target.
-// Triangles that cross the surface are few and stay scalar (wet_hull.cc).
+// Triangles that cross the surface are cut one by one (wet_hull.cc), the pieces summed likewise.
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "server/world/wet_kernel.cc"
@@ -68,13 +68,13 @@ HWY_INLINE hn::Vec<DF> ExpMinus(hn::Vec<DF> x) {
 // exp(-kd) to cosh k(H - d) / cosh kH, and sinh k(H - d) / sinh kH.
 HWY_INLINE void FeelTheBottom(const WaterSampler& sampler, float* decay, float* vertical) {
   const DF d;
-  const auto one = hn::Set(d, 1.0f);
   for (int b = 0; b < sampler.patch->bands; b += static_cast<int>(hn::Lanes(d))) {
     const auto image = hn::LoadU(d, sampler.bottom_image + b);
-    const auto down = hn::Max(hn::Load(d, decay + b), hn::Sqrt(image));
+    const auto down = hn::Max(hn::Load(d, decay + b), hn::LoadU(d, sampler.least_decay + b));
     const auto up = hn::Div(image, down);
-    hn::Store(hn::Div(hn::Add(down, up), hn::Add(one, image)), d, decay + b);
-    hn::Store(hn::Div(hn::Sub(down, up), hn::Sub(one, image)), d, vertical + b);
+    hn::Store(hn::Mul(hn::Add(down, up), hn::LoadU(d, sampler.per_sum + b)), d, decay + b);
+    hn::Store(hn::Mul(hn::Sub(down, up), hn::LoadU(d, sampler.per_difference + b)), d,
+              vertical + b);
   }
 }
 
@@ -161,7 +161,8 @@ HWY_INLINE void SampleBlock(const WaterSampler& sampler, const Cell* cells, cons
     HWY_ALIGN float sum[4];
     SumBands(sampler, s, n, sum);
     const double lost = double{s.height[n]} - double{sum[0]};
-    out.head[first + n] = std::max(0.0, out.depth[first + n] - lost);
+    const double depth = out.depth[first + n];
+    out.head[first + n] = depth > 0.0 ? std::max(0.0, depth - lost) : 0.0;
     water[0][n] = patch.current_m_per_s.x + double{sum[1]};
     water[1][n] = patch.current_m_per_s.y + double{sum[2]};
     water[2][n] = patch.current_m_per_s.z + double{sum[3]};
@@ -252,36 +253,39 @@ HWY_INLINE void Accumulate3(double (*sums)[kWetBlock], int which, std::size_t la
   Accumulate(sums, which + 2, lane, value.z);
 }
 
-// As WetHull::Sums::Add, for lanes of triangles; `area` is 0 where a triangle is not wholly wet.
-HWY_INLINE void AddTriangles(const WetMesh& mesh, const WetVertices& w,
-                             const WetCoefficients& coefficients, std::size_t at, V area,
-                             const V (&depths)[3], const Indices (&index)[3],
+// What is read of lanes of triangles.
+struct Lanes3 {
+  HWY_INLINE Lanes3() {}
+  Vec3v normal;
+  V area;  // 0 where a triangle is not wholly wet
+  Vec3v place[3], relative[3];
+  V depth[3], head[3];
+};
+
+HWY_INLINE void AddTriangles(const Lanes3& t, const WetCoefficients& coefficients, std::size_t lane,
                              double (*sums)[kWetBlock]) {
   const D d;
-  const std::size_t lane = at % kWetBlock;
-  const Vec3v normal(hn::Load(d, mesh.normal_x.get() + at), hn::Load(d, mesh.normal_y.get() + at),
-                     hn::Load(d, mesh.normal_z.get() + at));
+  const V area = t.area;
+  const Vec3v normal = t.normal;
   V head = hn::Zero(d), depth = hn::Zero(d), squares = hn::Zero(d);
   Vec3v sum = SetAll({}), by_head = SetAll({}), by_depth = SetAll({}), relative = SetAll({});
   for (int k = 0; k < 3; ++k) {
-    const Vec3v place(hn::Load(d, mesh.corner_x[k].get() + at),
-                      hn::Load(d, mesh.corner_y[k].get() + at),
-                      hn::Load(d, mesh.corner_z[k].get() + at));
-    const V p = At(w.head, index[k]);
-    head = hn::Add(head, p);
-    depth = hn::Add(depth, depths[k]);
-    squares = hn::Add(squares, hn::Mul(depths[k], depths[k]));
-    sum = Sum(sum, place);
-    by_head = Sum(by_head, Scaled(p, place));
-    by_depth = Sum(by_depth, Scaled(depths[k], place));
-    relative = Sum(relative, Vec3v(At(w.rx, index[k]), At(w.ry, index[k]), At(w.rz, index[k])));
+    head = hn::Add(head, t.head[k]);
+    depth = hn::Add(depth, t.depth[k]);
+    squares = hn::Add(squares, hn::Mul(t.depth[k], t.depth[k]));
+    sum = Sum(sum, t.place[k]);
+    by_head = Sum(by_head, Scaled(t.head[k], t.place[k]));
+    by_depth = Sum(by_depth, Scaled(t.depth[k], t.place[k]));
+    relative = Sum(relative, t.relative[k]);
   }
+  // ∫ p dS and ∫ x p dS of linear p: exact.
   const V twelfth = hn::Mul(area, hn::Set(d, 1.0 / 12.0));
   const V minus_third = hn::Mul(hn::Set(d, -4.0), twelfth);
   Accumulate3(sums, kPressureForce, lane, Scaled(hn::Mul(minus_third, head), normal));
   const Vec3v moment = Scaled(twelfth, Sum(Scaled(head, sum), by_head));
   Accumulate3(sums, kPressureTorque, lane, CrossOf(normal, moment));
 
+  // The volume as columns from the hull up to the surface.
   const V upward = hn::Mul(Product(normal, SetAll(coefficients.up)), twelfth);
   const V minus = hn::Sub(hn::Zero(d), upward);
   Accumulate(sums, kVolume, lane, hn::Mul(hn::Mul(hn::Set(d, 4.0), minus), depth));
@@ -294,6 +298,7 @@ HWY_INLINE void AddTriangles(const WetMesh& mesh, const WetVertices& w,
   Accumulate(sums, kArea, lane, area);
   Accumulate3(sums, kAreaMoment, lane, Scaled(area, centre));
   Accumulate3(sums, kAreaRelative, lane, Scaled(area, flow));
+  // Speed at which the piece moves into the water.
   const V into = hn::Sub(hn::Zero(d), Product(flow, normal));
   const V speed = hn::Sqrt(Product(flow, flow));
   const V along = hn::Mul(hn::Set(d, coefficients.friction), speed);
@@ -305,6 +310,11 @@ HWY_INLINE void AddTriangles(const WetMesh& mesh, const WetVertices& w,
       area, Sum(Scaled(along, flow), Scaled(hn::Mul(hn::Sub(along, against), into), normal)));
   Accumulate3(sums, kDragForce, lane, force);
   Accumulate3(sums, kDragTorque, lane, CrossOf(centre, force));
+}
+
+// Eight parts in one order, whatever the vectors.
+HWY_INLINE double Joined(const double (&part)[kWetBlock]) {
+  return ((part[0] + part[4]) + (part[2] + part[6])) + ((part[1] + part[5]) + (part[3] + part[7]));
 }
 
 int SumSubmergedOf(const WetMesh& mesh, const WetCoefficients& coefficients, WetVertices& w,
@@ -328,8 +338,19 @@ int SumSubmergedOf(const WetMesh& mesh, const WetCoefficients& coefficients, Wet
       hn::Store(high, d, most + n);
       const auto wet = hn::Gt(low, hn::Zero(d));
       if (hn::AllFalse(d, wet)) continue;
-      const V area = hn::IfThenElseZero(wet, hn::Load(d, mesh.area.get() + at));
-      AddTriangles(mesh, w, coefficients, at, area, depths, index, sums);
+      Lanes3 t;
+      t.area = hn::IfThenElseZero(wet, hn::Load(d, mesh.area.get() + at));
+      t.normal = Vec3v(hn::Load(d, mesh.normal_x.get() + at), hn::Load(d, mesh.normal_y.get() + at),
+                       hn::Load(d, mesh.normal_z.get() + at));
+      for (int k = 0; k < 3; ++k) {
+        t.place[k] = Vec3v(hn::Load(d, mesh.corner_x[k].get() + at),
+                           hn::Load(d, mesh.corner_y[k].get() + at),
+                           hn::Load(d, mesh.corner_z[k].get() + at));
+        t.relative[k] = Vec3v(At(w.rx, index[k]), At(w.ry, index[k]), At(w.rz, index[k]));
+        t.depth[k] = depths[k];
+        t.head[k] = At(w.head, index[k]);
+      }
+      AddTriangles(t, coefficients, n, sums);
     }
     for (std::size_t n = 0; n < kWetBlock; ++n) {
       if (mesh.area[first + n] == 0.0 || !(most[n] > 0.0)) continue;
@@ -340,12 +361,30 @@ int SumSubmergedOf(const WetMesh& mesh, const WetCoefficients& coefficients, Wet
       }
     }
   }
-  for (int s = 0; s < kWetSums; ++s) {
-    const double* part = sums[s];
-    out[s] =
-        ((part[0] + part[4]) + (part[2] + part[6])) + ((part[1] + part[5]) + (part[3] + part[7]));
-  }
+  for (int s = 0; s < kWetSums; ++s) out[s] = Joined(sums[s]);
   return whole;
+}
+
+void SumPiecesOf(const WetPieces& pieces, const WetCoefficients& coefficients,
+                 std::array<double, kWetSums>& out) {
+  const D d;
+  HWY_ALIGN double sums[kWetSums][kWetBlock] = {};
+  for (std::size_t at = 0; at < pieces.count; at += hn::Lanes(d)) {
+    const auto load = [&](const sea::AlignedArray<double>& array)
+                          HWY_ATTR { return hn::Load(d, array.get() + at); };
+    Lanes3 t;
+    t.area = load(pieces.area);
+    t.normal = Vec3v(load(pieces.normal_x), load(pieces.normal_y), load(pieces.normal_z));
+    for (int k = 0; k < 3; ++k) {
+      const WetPieces::Corner& c = pieces.corner[k];
+      t.place[k] = Vec3v(load(c.x), load(c.y), load(c.z));
+      t.relative[k] = Vec3v(load(c.rx), load(c.ry), load(c.rz));
+      t.depth[k] = load(c.depth);
+      t.head[k] = load(c.head);
+    }
+    AddTriangles(t, coefficients, at % kWetBlock, sums);
+  }
+  for (int s = 0; s < kWetSums; ++s) out[s] += Joined(sums[s]);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -357,6 +396,21 @@ namespace onesea::world {
 
 HWY_EXPORT(SampleVerticesOf);
 HWY_EXPORT(SumSubmergedOf);
+HWY_EXPORT(SumPiecesOf);
+
+void WetPieces::Reserve(std::size_t pieces) {
+  const std::size_t padded = (pieces + kWetBlock - 1) / kWetBlock * kWetBlock;
+  if (capacity >= padded) return;
+  for (Corner& c : corner) {
+    for (auto* array : {&c.x, &c.y, &c.z, &c.depth, &c.head, &c.rx, &c.ry, &c.rz}) {
+      *array = sea::AllocateZeros<double>(padded);
+    }
+  }
+  for (auto* array : {&normal_x, &normal_y, &normal_z, &area}) {
+    *array = sea::AllocateZeros<double>(padded);
+  }
+  capacity = padded;
+}
 
 void WetVertices::Reserve(const WetMesh& mesh) {
   if (capacity < mesh.vertices) {
@@ -376,6 +430,11 @@ void SampleVertices(const WetMesh& mesh, const WetMotion& motion, const WaterSam
 int SumSubmerged(const WetMesh& mesh, const WetCoefficients& coefficients, WetVertices& vertices,
                  std::array<double, kWetSums>& sums) {
   return HWY_DYNAMIC_DISPATCH(SumSubmergedOf)(mesh, coefficients, vertices, sums);
+}
+
+void SumPieces(const WetPieces& pieces, const WetCoefficients& coefficients,
+               std::array<double, kWetSums>& sums) {
+  HWY_DYNAMIC_DISPATCH(SumPiecesOf)(pieces, coefficients, sums);
 }
 
 }  // namespace onesea::world

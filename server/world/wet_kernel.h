@@ -25,11 +25,25 @@ struct WetMesh {
   sea::AlignedArray<double> normal_x, normal_y, normal_z, area;
 };
 
+/// Wetted parts of triangles that cross the surface: what a mesh and its vertices say of whole
+/// ones, corner by corner. Padded with pieces of no area.
+struct WetPieces {
+  std::size_t count = 0, capacity = 0;
+  struct Corner {
+    sea::AlignedArray<double> x, y, z, depth, head, rx, ry, rz;
+  };
+  std::array<Corner, 3> corner;
+  sea::AlignedArray<double> normal_x, normal_y, normal_z, area;
+
+  void Reserve(std::size_t pieces);
+};
+
 /// What the water does at every vertex; relative velocity of the water to the hull in body axes.
 struct WetVertices {
   std::size_t capacity = 0;
   sea::AlignedArray<double> depth, head, rx, ry, rz;
   std::vector<std::uint32_t> clipped;  ///< triangles that cross the surface
+  WetPieces pieces;                    ///< of those
 
   void Reserve(const WetMesh& mesh);
 };
@@ -68,5 +82,9 @@ struct WetCoefficients {
 /// how many are wholly wet. The same bits on every SIMD target.
 int SumSubmerged(const WetMesh& mesh, const WetCoefficients& coefficients, WetVertices& vertices,
                  std::array<double, kWetSums>& sums);
+
+/// Adds the sums over pieces.
+void SumPieces(const WetPieces& pieces, const WetCoefficients& coefficients,
+               std::array<double, kWetSums>& sums);
 
 }  // namespace onesea::world

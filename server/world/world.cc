@@ -7,6 +7,7 @@
 #include "common/base/check.h"
 #include "common/base/real_math.h"
 #include "server/world/body_from_wire.h"
+#include "server/world/rain.h"
 
 namespace onesea::world {
 namespace {
@@ -16,6 +17,9 @@ namespace {
 constexpr double kPressLagS = 5.0;
 // Wakes of hulls: from this speed through the water on they foam, and from the other on fully.
 constexpr double kFoamSpeedMPerS = 1.5, kFullFoamSpeedMPerS = 8.0;
+
+// Hulls average over what a coarser sea gets a little wrong (point_query.h).
+constexpr int kSeaCoarser = 2;
 
 // Turned about the vertical alone, as the body is.
 Quaternion HeadingOf(const Quaternion& turn) {
@@ -44,7 +48,7 @@ World::World(WorldOptions options)
       step_s_(1.0 / options_.tick_rate_hz),
       rigid_(step_s_, options_.terrain),
       layer_({.step_s = step_s_, .depth_m = options_.depth_m, .terrain = options_.terrain}) {
-  Publish();
+  Publish(Change::kRegions);
 }
 
 World::~World() = default;
@@ -52,36 +56,51 @@ World::~World() = default;
 void World::Step(Tick tick, const std::shared_ptr<const sea::Components>& components) {
   if (bodies_.empty() && regions_.empty()) {
     tick_ = tick;
-    if (!view_->empty()) Publish();
+    past_ = std::make_shared<const sea::InteractionPast>();
+    if (!view_->empty()) Publish(Change::kTick);
     return;
   }
   const SimTime start = TimeOfTick(tick_, options_.tick_rate_hz);
   PlaceRegions().IgnoreError();  // a region without water is left out until there is some
+  Done(WorldStage::kRegionsPlaced);
   SampleSea(tick_, components);
   FloatNewBodies();
+  Done(WorldStage::kSeaMade);
   FillWater();
+  Done(WorldStage::kWaterSampled);
   Water water(water_);
   rigid_.Step(water, AirAt(components->recipe, start));
+  SprayFromBodies();
+  Done(WorldStage::kBodiesMoved);
   PressBodies();
   HoldObstacles();
-  std::vector<sea::InteractionField> heads = PressedHeads();
+  layer_.ForEachForcing(
+      [&](RegionForcing& forcing) { RainOn(forcing, components->recipe.seed, tick_, step_s_); });
+  Done(WorldStage::kPressed);
   layer_.Step();
+  Done(WorldStage::kRegionsStepped);
   tick_ = tick;
-  Publish();
-  Feel(std::move(heads));
+  Publish(Change::kTick);
+  KeepPast();
+  Done(WorldStage::kPublished);
 }
 
-// What bodies will feel: the layer, plus what they press on it.
-void World::Feel(std::vector<sea::InteractionField> heads) {
-  felt_ = *view_->interaction;
-  for (sea::InteractionField& head : heads) {
-    for (std::shared_ptr<const sea::InteractionField>& field : felt_.fields) {
-      if (field->cells != head.cells) continue;
-      for (std::size_t n = 0; n < head.height_m.size(); ++n) head.height_m[n] += field->height_m[n];
-      field = std::make_shared<const sea::InteractionField>(std::move(head));
-      break;
-    }
+// For queries about the last seconds.
+void World::KeepPast() {
+  if (tick_ % std::max(1, options_.tick_rate_hz / kPastPerSecond) != 0) return;
+  auto past = std::make_shared<sea::InteractionPast>(*past_);
+  past->push_back(view_->interaction);
+  const auto ticks_max = static_cast<Tick>(kPastS * options_.tick_rate_hz);
+  std::size_t bytes = 0;
+  auto oldest = past->end();
+  while (oldest != past->begin()) {
+    const auto& snapshot = *(oldest - 1);
+    for (const auto& field : snapshot->fields) bytes += 4 * sizeof(float) * field->cells.cells();
+    if (bytes > kPastBytesMax || tick_ - snapshot->tick > ticks_max) break;
+    --oldest;
   }
+  past->erase(past->begin(), oldest);
+  past_ = std::move(past);
 }
 
 absl::Status World::PlaceRegions() {
@@ -92,7 +111,11 @@ absl::Status World::PlaceRegions() {
                   .cell_m = spec.cell_m,
                   .columns = spec.columns,
                   .rows = spec.rows,
-                  .centre_m = spec.middle_m};
+                  .centre_m = spec.middle_m,
+                  .damping_per_s = spec.damping_per_s,
+                  .traits = {.height_step_m = spec.height_step_m,
+                             .frames_per_update = spec.frames_per_update,
+                             .rain_drops_per_m2_s = spec.rain_drops_per_m2_s}};
     if (const BodyState* body = rigid_.FindState(spec.follow_body_id); body != nullptr) {
       ask.centre_m = {body->pose.centre_m.x, body->pose.centre_m.y};
     }
@@ -105,7 +128,7 @@ void World::SampleSea(Tick tick, const std::shared_ptr<const sea::Components>& c
   if (components_ != components) {
     components_ = components;
     sea_ = nullptr;
-    builder_ = std::make_unique<sea::SnapshotBuilder>(components, options_.transform);
+    builder_ = std::make_unique<sea::SnapshotBuilder>(components, options_.transform, kSeaCoarser);
   }
   const SimTime time = TimeOfTick(tick, options_.tick_rate_hz);
   sea_ = builder_->At(time, sea::QueryDetail::kVelocity, std::exchange(sea_, nullptr));
@@ -119,30 +142,32 @@ void World::SampleSea(Tick tick, const std::shared_ptr<const sea::Components>& c
 void World::FloatNewBodies() {
   for (auto& [id, body] : bodies_) {
     if (!std::exchange(body.is_to_float, false)) continue;
-    const Vec3d centre_m = rigid_.FindState(id)->pose.centre_m;
+    const Vec3d centre_m = body.stepped->state.pose.centre_m;
     const Vec2d place{centre_m.x, centre_m.y};
     sea::SurfaceSample sea;
     sea_->Sample({&place, 1}, {&sea, 1});
-    const double layer_m = sea::SampleInteraction(felt_, place).height_m;
-    rigid_.Raise(id, sea.height_m + layer_m, sea.velocity_z_m_per_s).IgnoreError();
+    sea::InteractionFelt felt;
+    layer_.AddFelt({&place, 1}, {&felt, 1});
+    rigid_.Raise(id, sea.height_m + felt.height_m, sea.velocity_z_m_per_s).IgnoreError();
   }
 }
 
 void World::FillWater() {
   water_.Clear();
   for (const auto& [id, body] : bodies_) {
-    const BodyState& state = *rigid_.FindState(id);
-    water_.Add({state.pose.centre_m.x, state.pose.centre_m.y}, body.model->hull.radius_m());
+    const BodyState& state = body.stepped->state;
+    water_.Add({state.pose.centre_m.x, state.pose.centre_m.y}, body.model->hull.radius_m(),
+               body.model->spec.radiation == Radiation::kCoefficients);
   }
-  felt_m_.resize(felt_.fields.empty() ? 0 : water_.points_m().size());
-  if (!felt_m_.empty()) sea::InteractionHeights(felt_, water_.points_m(), felt_m_);
+  felt_.assign(water_.points_m().size(), {});
+  layer_.AddFelt(water_.points_m(), felt_);
   const IncidentSea sea{.waves = sea_.get(),
                         .wavenumber_rad_per_m = wavenumbers_,
                         .level_m = LevelAt(TimeOfTick(tick_, options_.tick_rate_hz)),
                         .current_m_per_s = options_.current_m_per_s,
                         .depth_m = options_.depth_m,
                         .terrain = options_.terrain.get()};
-  water_.Fill(sea, felt_m_);
+  water_.Fill(sea, felt_);
 }
 
 Air World::AirAt(const sea::Recipe& recipe, SimTime time) const {
@@ -151,43 +176,39 @@ Air World::AirAt(const sea::Recipe& recipe, SimTime time) const {
     air.wind_m_per_s = {wind_m_per_s_->x, wind_m_per_s_->y, 0.0};
     return air;
   }
-  const std::vector<double> weights = sea::WeatherWeights(recipe, time);
-  for (std::size_t n = 0; n < weights.size(); ++n) {
-    const sea::SeaState& sea = recipe.timeline[n].sea;
-    const real::SinCosPair to = real::SinCos(sea.wind_to_rad);
-    const double speed = weights[n] * sea.wind_speed_m_per_s;
-    air.wind_m_per_s = air.wind_m_per_s + speed * Vec3d{to.cos, to.sin, 0.0};
-  }
+  const Vec2d wind = sea::WindAt(recipe, time);
+  air.wind_m_per_s = {wind.x, wind.y, 0.0};
   return air;
 }
 
 double World::LevelAt(SimTime time) const { return wire::WaterLevelAt(levels_, time); }
 
 void World::PressBodies() {
-  pressed_.clear();
   std::size_t index = 0;
-  for (auto& [id, body] : bodies_) PressBody(id, body, water_.incident(index++));
+  for (auto& [id, body] : bodies_) PressBody(body, water_.incident(index++));
 }
 
-void World::PressBody(std::uint32_t id, Body& body, const HeightPatch& incident) {
-  const BodyState& state = *rigid_.FindState(id);
-  const BodyLoads& loads = *rigid_.FindLoads(id);
+void World::PressBody(Body& body, const HeightPatch& incident) {
+  const BodyState& state = body.stepped->state;
+  const BodyLoads& loads = body.stepped->loads;
   const Vec2d place{state.pose.centre_m.x, state.pose.centre_m.y};
   const BodyModel& model = *body.model;
   const double share = std::min(loads.wet.volume_m3 / model.rest.volume_m3, 1.5);
   body.pressed_share += (share - body.pressed_share) * step_s_ / (kPressLagS + step_s_);
   RegionForcing* forcing = layer_.ForcingAt(place);
   if (forcing == nullptr) return;
-  if (std::find(pressed_.begin(), pressed_.end(), forcing) == pressed_.end()) {
-    pressed_.push_back(forcing);
-  }
+  forcing->has_pressure = true;
   if (model.spec.radiation == Radiation::kGrid) {
     AddDisplacedColumns(model.mesh, model.centre_of_mass_m, state.pose, incident, forcing->cells,
                         forcing->pressure_head_m);
   } else if (body.pressed_share > 1e-3) {
-    const Pose at_rest{{place.x, place.y, model.rest.centre_height_m}, HeadingOf(state.pose.turn)};
-    AddDisplacedColumns(model.mesh, model.centre_of_mass_m, at_rest, HeightPatch{}, forcing->cells,
-                        forcing->pressure_head_m, body.pressed_share);
+    if (body.columns_cell_m != forcing->cells.cell_m) {
+      body.columns_cell_m = forcing->cells.cell_m;
+      body.columns = ColumnsAtRest(model.mesh, model.centre_of_mass_m, model.rest.centre_height_m,
+                                   body.columns_cell_m);
+    }
+    AddColumns(body.columns, place, HeadingOf(state.pose.turn), forcing->cells,
+               forcing->pressure_head_m, body.pressed_share);
   }
   const Vec3d velocity = state.velocity_m_per_s;
   const double speed =
@@ -199,11 +220,40 @@ void World::PressBody(std::uint32_t id, Body& body, const HeightPatch& incident)
   }
 }
 
+void World::SprayFromBodies() {
+  std::size_t index = 0;
+  for (auto& [id, body] : bodies_) {
+    const WaterPatch& water = water_.patch(index++);
+    const BodyLoads& loads = body.stepped->loads;
+    if (body.wetness_known) {
+      AddHullSpray(*body.model, body.stepped->state, loads, body.wetness, water, step_s_, spray_);
+    }
+    body.wetness = {loads.wet.volume_m3, loads.wet.wet_area_m2};
+    body.wetness_known = true;
+  }
+}
+
+// As often as foam is made.
+void World::SprayFromCrests(const WorldView& view) {
+  if (tick_ % kFoamSteps != 0 || sea_ == nullptr) return;
+  const std::size_t first = spray_.size();
+  for (const auto& field : view.interaction->fields) {
+    AddCrestSpray(*field, kFoamSteps * step_s_, spray_);
+  }
+  // On top of the rest of the sea.
+  for (std::size_t n = first; n < std::min<std::size_t>(spray_.size(), kSprayMax); ++n) {
+    const Vec2d place{spray_[n].position_m.x, spray_[n].position_m.y};
+    sea::SurfaceSample sample;
+    sea_->Sample({&place, 1}, {&sample, 1});
+    spray_[n].position_m.z += view.water_level_m + sample.height_m;
+  }
+}
+
 void World::HoldObstacles() {
   if (obstacles_.empty()) return;
   layer_.ForEachForcing([&](RegionForcing& forcing) {
     const Obstacles::Cells& cells = obstacles_.CellsIn(forcing.cells);
-    if (cells.index.empty()) return false;
+    if (cells.index.empty()) return;
     obstacle_samples_.resize(cells.index.size());
     sea_->Sample(cells.place_m, obstacle_samples_);
     for (std::size_t n = 0; n < cells.index.size(); ++n) {
@@ -211,28 +261,28 @@ void World::HoldObstacles() {
       // Relative to the level, as all heights of the layer.
       forcing.rest_height_m[cells.index[n]] = -obstacle_samples_[n].height_m;
     }
-    return true;
+    forcing.has_solid = true;
   });
 }
 
-std::vector<sea::InteractionField> World::PressedHeads() const {
-  std::vector<sea::InteractionField> heads;
-  for (const RegionForcing* forcing : pressed_) {
-    sea::InteractionField field;
-    field.cells = forcing->cells;
-    field.height_m.assign(forcing->pressure_head_m.begin(), forcing->pressure_head_m.end());
-    heads.push_back(std::move(field));
-  }
-  return heads;
-}
-
-void World::Publish() {
+// After a tick, or after a command between two: then with what it changed.
+void World::Publish(Change change) {
   auto view = std::make_shared<WorldView>();
   view->tick = tick_;
   view->water_level_m = LevelAt(TimeOfTick(tick_, options_.tick_rate_hz));
-  view->interaction = layer_.Snapshot(tick_, true);
+  view->interaction = change == Change::kBodies ? view_->interaction : layer_.Snapshot(tick_, true);
+  view->past = past_;
+  if (change == Change::kTick) {
+    SprayFromCrests(*view);
+    spray_.resize(std::min<std::size_t>(spray_.size(), kSprayMax));
+    view->spray = std::exchange(spray_, {});
+  }
+  for (const Region& region : layer_.regions()) {
+    view->streaming.push_back({region.traits.height_step_m, region.traits.frames_per_update});
+  }
+  view->bodies.reserve(bodies_.size());
   for (const auto& [id, body] : bodies_) {
-    const BodyState& state = *rigid_.FindState(id);
+    const BodyState& state = body.stepped->state;
     wire::BodyView& out = view->bodies.emplace_back();
     out.state.id = id;
     out.state.position_m = state.pose.centre_m;

@@ -1,20 +1,25 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <vector>
 
 #include "absl/status/statusor.h"
 #include "common/sea/components.h"
+#include "common/sea/interaction_past.h"
 #include "common/sea/point_query.h"
 #include "common/sea/terrain.h"
 #include "common/wire/body_encoder.h"
 #include "common/wire/world_command.h"
+#include "common/wire/world_encoder.h"
 #include "server/world/body_water.h"
+#include "server/world/displaced_columns.h"
 #include "server/world/interaction_layer.h"
 #include "server/world/obstacles.h"
 #include "server/world/rigid_bodies.h"
+#include "server/world/spray.h"
 
 /// Everything of a session that has history: bodies, regions of the interaction layer, walls.
 ///
@@ -31,20 +36,42 @@
 /// its heaving and rolling make no waves in the grid; one with kGrid presses as it lies.
 namespace onesea::world {
 
+/// The parts of a tick, in their order.
+enum class WorldStage : std::uint8_t {
+  kRegionsPlaced,
+  kSeaMade,
+  kWaterSampled,
+  kBodiesMoved,
+  kPressed,
+  kRegionsStepped,
+  kPublished,
+};
+inline constexpr int kWorldStages = 7;
+
 struct WorldOptions {
   int tick_rate_hz = 60;
   double depth_m = 0.0;  ///< 0: infinitely deep
   Vec2d current_m_per_s;
   std::shared_ptr<const sea::Terrain> terrain;  ///< null: none
   sea::TransformKind transform = sea::TransformKind::kOwn;
+  std::function<void(WorldStage)> after_stage = {};  ///< for those who measure; may be empty
 };
+
+/// How much of the interaction layer is kept for queries about the past: ten snapshots a second for
+/// two seconds, but at most so many bytes (16 a cell and snapshot: 21 MB for 256 x 256 cells).
+inline constexpr int kPastPerSecond = 10;
+inline constexpr double kPastS = 2.0;
+inline constexpr std::size_t kPastBytesMax = 64 << 20;
 
 /// The world at one tick; immutable, shared by those who stream it and those who query it.
 struct WorldView {
   Tick tick = 0;  ///< of an empty world: when it became empty
   double water_level_m = 0.0;
   std::shared_ptr<const sea::InteractionSnapshot> interaction;  ///< never null
+  std::shared_ptr<const sea::InteractionPast> past;             ///< never null; up to kPastS
+  std::vector<wire::RegionStreaming> streaming;                 ///< one per region
   std::vector<wire::BodyView> bodies;                           ///< ascending ids
+  std::vector<wire::Spray> spray;  ///< thrown up in this tick, at most kSprayMax
   bool empty() const { return interaction->fields.empty() && bodies.empty(); }
 };
 
@@ -84,6 +111,14 @@ class World {
   /// Null: none.
   const std::shared_ptr<const sea::Terrain>& terrain() const { return options_.terrain; }
   bool HasBody(std::uint32_t id) const { return bodies_.contains(id); }
+  /// Everything that the next step depends on. Forgets what Bullet remembers of contacts, so that
+  /// this world goes on as one that is restored does: the hash of both is the same from here on.
+  struct Saved;
+  std::shared_ptr<const Saved> Save();
+  /// Into a world of the same options. What was kept for queries about the past is gone.
+  /// InvalidArgument: of other options.
+  absl::Status Restore(const Saved& saved);
+
   /// As of the last change or step.
   const std::shared_ptr<const WorldView>& view() const { return view_; }
   /// Over all that the next step depends on. Cost: reads every cell.
@@ -94,8 +129,13 @@ class World {
     std::shared_ptr<const BodyModel> model;
     std::shared_ptr<const std::string> mesh;  // file, or null
     std::shared_ptr<const wire::BodyInfo> info;
+    const SteppedBody* stepped = nullptr;  // in rigid_
+    Wetness wetness;                       // of the last step
+    bool wetness_known = false;
     double pressed_share = 0.0;  // of the displacement at rest, lagging behind the true one
     bool is_to_float = false;    // on the waves of its first step, which it was spawned without
+    std::vector<LumpedColumn> columns;  // at rest, for cells of columns_cell_m
+    double columns_cell_m = 0.0;        // 0: not made yet
   };
   class Water;
 
@@ -108,6 +148,9 @@ class World {
   absl::StatusOr<std::uint32_t> Do(const wire::AddRegion& command);
   absl::StatusOr<std::uint32_t> Do(const wire::RemoveRegion& command);
 
+  void Done(WorldStage stage) const {
+    if (options_.after_stage) options_.after_stage(stage);
+  }
   absl::Status PlaceRegions();
   void SampleSea(Tick tick, const std::shared_ptr<const sea::Components>& components);
   void FloatNewBodies();
@@ -115,11 +158,13 @@ class World {
   Air AirAt(const sea::Recipe& recipe, SimTime time) const;
   double LevelAt(SimTime time) const;
   void PressBodies();
-  void PressBody(std::uint32_t id, Body& body, const HeightPatch& incident);
+  void SprayFromBodies();
+  void SprayFromCrests(const WorldView& view);
+  void PressBody(Body& body, const HeightPatch& incident);
   void HoldObstacles();
-  std::vector<sea::InteractionField> PressedHeads() const;
-  void Feel(std::vector<sea::InteractionField> heads);
-  void Publish();
+  enum class Change : std::uint8_t { kTick, kRegions, kBodies };
+  void Publish(Change change);
+  void KeepPast();
 
   WorldOptions options_;
   double step_s_;
@@ -139,10 +184,11 @@ class World {
   std::shared_ptr<const sea::SeaSnapshot> sea_;
   std::vector<double> wavenumbers_;
   BodyWater water_;
-  sea::InteractionSnapshot felt_;  // heights plus what the bodies press
-  std::vector<double> felt_m_;
-  std::vector<RegionForcing*> pressed_;  // where some body presses in this tick
+  std::vector<sea::InteractionFelt> felt_;
+  std::vector<wire::Spray> spray_;  // since the last tick
   std::vector<sea::SurfaceSample> obstacle_samples_;
+  std::shared_ptr<const sea::InteractionPast> past_ =
+      std::make_shared<const sea::InteractionPast>();
   std::shared_ptr<const WorldView> view_;
 };
 

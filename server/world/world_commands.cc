@@ -60,6 +60,7 @@ absl::Status World::Begin(const wire::WorldSpec& spec) {
   for (const wire::RegionSpec& region : spec.regions) {
     ONESEA_RETURN_IF_ERROR(Do(wire::AddRegion{region}).status());
   }
+  Publish(Change::kRegions);
   return absl::OkStatus();
 }
 
@@ -77,12 +78,13 @@ absl::StatusOr<std::uint32_t> World::Spawn(const PreparedBody& prepared,
   const auto wire_id = static_cast<std::uint32_t>(id);
   Body& body = bodies_[wire_id];
   body.model = prepared.model;
+  body.stepped = rigid_.FindBody(id);
   body.mesh = prepared.mesh;
   body.is_to_float = is_to_float;
   wire::BodyInfo info = prepared.info;
   info.id = wire_id;
   body.info = std::make_shared<const wire::BodyInfo>(std::move(info));
-  Publish();
+  Publish(Change::kBodies);
   return wire_id;
 }
 
@@ -102,7 +104,9 @@ absl::StatusOr<std::uint32_t> World::Apply(const wire::WorldCommand& command) {
         }
       },
       command);
-  if (id.ok()) Publish();
+  const bool regions_changed = std::holds_alternative<wire::AddRegion>(command) ||
+                               std::holds_alternative<wire::RemoveRegion>(command);
+  if (id.ok()) Publish(regions_changed ? Change::kRegions : Change::kBodies);
   return id;
 }
 
@@ -155,6 +159,8 @@ absl::StatusOr<std::uint32_t> World::Do(const wire::Explode& command) {
                                             place.x, ", ", place.y, "; add one there first"));
   }
   layer_.AddFoam(place, 1.5 * dome.radius_m, 1.0);
+  AddPlume({place.x, place.y, LevelAt(TimeOfTick(tick_, options_.tick_rate_hz))}, dome.radius_m,
+           dome.volume_m3, spray_);
   return 0;
 }
 

@@ -253,5 +253,41 @@ TEST(QueryEngine, RefusesPointsBelowTheBottom) {
   EXPECT_TRUE(ValidateQuery(request, spec.recipe).ok());
 }
 
+TEST_F(QueryEngineTest, TheLayerIsInAnswersAboutTheLastSeconds) {
+  const auto flat = [](Tick tick, float height_m) {
+    auto field = std::make_shared<sea::InteractionField>();
+    field->cells = {.west = -32, .south = -32, .columns = 64, .rows = 64, .cell_m = 0.5};
+    field->height_m.assign(64 * 64, height_m);
+    auto snapshot = std::make_shared<sea::InteractionSnapshot>();
+    snapshot->tick = tick;
+    snapshot->fields = {field};
+    return snapshot;
+  };
+  const sea::InteractionPast past = {flat(100, 1.0f), flat(106, 1.0f)};
+  const auto present = flat(110, 2.0f);
+  const auto ask = [&](std::optional<Tick> tick, bool with_layer) {
+    QueryRequest request = At({{3.25, 1.5}});
+    request.tick = tick;
+    const auto answer =
+        engine.Answer(components, 110, request,
+                      {.interaction = with_layer ? present.get() : nullptr, .past = &past});
+    EXPECT_TRUE(answer.ok()) << answer.status();
+    return *answer;
+  };
+  const auto layer_at = [&](Tick tick) {
+    return ask(tick, true).height_m[0] - ask(tick, false).height_m[0];
+  };
+  constexpr std::uint32_t kBoth = sea::kLayerSpectral | sea::kLayerInteraction;
+  EXPECT_EQ(ask(std::nullopt, true).layers, kBoth);
+  EXPECT_EQ(ask(100, true).layers, kBoth);
+  EXPECT_NEAR(layer_at(103), 1.0, 1e-6);
+  EXPECT_NEAR(layer_at(108), 1.5, 1e-6);
+  EXPECT_NEAR(layer_at(110), 2.0, 1e-6);
+  for (const Tick tick : {99, 111}) {
+    EXPECT_EQ(ask(tick, true).layers, sea::kLayerSpectral) << tick;
+    EXPECT_EQ(layer_at(tick), 0.0f);
+  }
+}
+
 }  // namespace
 }  // namespace onesea::server

@@ -105,7 +105,10 @@ TEST_F(WorldMethodsTest, ADrivenBoatMovesAndItsWakeIsInQueries) {
   v1::QueryPointsRequest earlier = QueryAt("small", 3);
   earlier.set_tick(10);
   ASSERT_TRUE(Call(&Stub::QueryPoints, earlier, &answer).ok());
-  EXPECT_EQ(answer.layers(), sea::kLayerSpectral);  // wakes of the past are not held
+  EXPECT_EQ(answer.layers(), sea::kLayerSpectral);  // wakes of so long ago are not held
+  earlier.set_tick(270);
+  ASSERT_TRUE(Call(&Stub::QueryPoints, earlier, &answer).ok());
+  EXPECT_EQ(answer.layers(), sea::kLayerSpectral | sea::kLayerInteraction);
 }
 
 TEST_F(WorldMethodsTest, ARetryIsHarmless) {

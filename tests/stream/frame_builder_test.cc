@@ -72,6 +72,42 @@ TEST(FrameBuilder, EveryFrameViewersAreToldEveryStreamedTick) {
   EXPECT_EQ(builder.newest_sequence(), kTickRateHz);
 }
 
+// Frames come with every second tick; what is thrown up in the others is told too, once.
+TEST(FrameBuilder, SprayOfEachTickIsToldOnce) {
+  FrameBuilder builder(Audience::kEveryFrame);
+  builder.OnWelcome(SampleWelcome());
+  const auto step = [&](Tick tick, std::size_t events, bool watched) {
+    auto world = std::make_shared<world::WorldView>();
+    world->tick = tick;
+    world->interaction = std::make_shared<const sea::InteractionSnapshot>();
+    world->past = std::make_shared<const sea::InteractionPast>();
+    world->bodies.resize(1);
+    world->bodies[0].state.id = 1;
+    auto info = std::make_shared<wire::BodyInfo>();
+    info->id = 1;
+    info->mass_kg = 1.0;
+    world->bodies[0].info = info;
+    world->spray.assign(events, {{1, 2, 3}, {0, 0, 4}, static_cast<double>(tick)});
+    TickEvent event;
+    event.stamp = {.tick = tick, .server_monotonic_ns = tick * kSecond / kTickRateHz, .speed = 1.0};
+    event.stream_instant = tick % 2 == 0;
+    event.world = world;
+    const bool told = builder.OnTick(event, watched);
+    return told ? Decode(builder.newest()).world->spray : std::vector<wire::Spray>{};
+  };
+  step(1, 5, false);  // nobody saw it, nobody will
+  EXPECT_TRUE(step(2, 0, true).empty());
+  step(3, 2, true);
+  const auto both = step(4, 1, true);
+  ASSERT_EQ(both.size(), 3u);
+  EXPECT_EQ(both[0].mass_kg, 3.0);
+  EXPECT_EQ(both[2].mass_kg, 4.0);
+  step(5, 0, true);
+  EXPECT_TRUE(step(6, 0, true).empty());
+  step(7, 200, true);
+  EXPECT_EQ(step(8, 200, true).size(), 256u);
+}
+
 TEST(FrameBuilder, KeyframeIsTheWholeStateUnderTheNewestSequence) {
   FrameBuilder builder(Audience::kStamps);
   EXPECT_EQ(builder.newest_sequence(), -1);

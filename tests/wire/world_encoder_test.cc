@@ -29,7 +29,8 @@ std::shared_ptr<const sea::InteractionField> Field(const sea::CellRect& cells, d
   return field;
 }
 
-WorldUpdate Encode(WorldEncoder& encoder, const std::vector<sea::CellRect>& rects, Tick tick) {
+WorldUpdate Encode(WorldEncoder& encoder, const std::vector<sea::CellRect>& rects, Tick tick,
+                   const std::vector<RegionStreaming>& streaming = {}) {
   sea::InteractionSnapshot snapshot;
   snapshot.tick = tick;
   for (const sea::CellRect& rect : rects) {
@@ -38,6 +39,7 @@ WorldUpdate Encode(WorldEncoder& encoder, const std::vector<sea::CellRect>& rect
   WorldState state;
   state.tick = tick;
   state.interaction = &snapshot;
+  state.streaming = streaming;
   return encoder.Encode(state);
 }
 
@@ -83,17 +85,35 @@ TEST(WorldEncoder, ReceiversHaveEveryFieldThroughMovesAndMerges) {
   }
 }
 
-TEST(WorldEncoder, CoarseRegionsComeSeldomerInCoarserSteps) {
+TEST(WorldEncoder, EachRegionComesInItsStepsAndAtItsRate) {
   WorldEncoder encoder(1.0 / 60.0);
-  int with_tiles = 0;
-  for (Tick tick = 0; tick < 60; tick += 2) {
-    const WorldUpdate update = Encode(encoder, {Rect(0, 0, 64, 64, 4.0)}, tick);
+  TileStore store;
+  const std::vector<sea::CellRect> rects = {Rect(0, 0, 64, 64), Rect(320, 0, 64, 64)};
+  const std::vector<RegionStreaming> streaming = {{},
+                                                  {.height_step_m = 0.02, .frames_per_update = 5}};
+  std::vector<float> before;
+  int updates = 0;
+  double worst = 0.0;
+  for (Tick tick = 0; tick < 100; tick += 2) {
+    const WorldUpdate update = Encode(encoder, rects, tick, streaming);
     if (tick == 0) {
-      EXPECT_EQ(update.tiles.layout->at(0).height_step_m, 4e-3);
+      EXPECT_EQ(update.tiles.layout->at(0).height_step_m, 1e-3);
+      EXPECT_EQ(update.tiles.layout->at(1).height_step_m, 0.02);
     }
-    with_tiles += update.tiles.blobs.empty() ? 0 : 1;
+    ASSERT_TRUE(store.Apply(update.tiles, tick == 0).ok());
+    const std::vector<float>& held = store.fields()[1].height_m;
+    if (held == before) continue;
+    before = held;
+    ++updates;
+    const auto truth = Field(rects[1], static_cast<double>(tick) / 60.0);
+    for (std::size_t n = 0; n < held.size(); ++n) {
+      worst = std::max(worst, static_cast<double>(std::abs(held[n] - truth->height_m[n])));
+    }
   }
-  EXPECT_EQ(with_tiles, 10);
+  EXPECT_GE(updates, 9);
+  EXPECT_LE(updates, 11);
+  EXPECT_LE(worst, 0.02 * 1.001);
+  EXPECT_GT(worst, 0.002);  // it is used
 }
 
 TEST(WorldEncoder, WaterLevelIsToldWhenItChangesAndInKeyframes) {

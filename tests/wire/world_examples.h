@@ -48,7 +48,8 @@ inline RegionSpec FullRegion() {
           .follow_body_id = 1,
           .damping_per_s = 0.02,
           .height_step_m = 4e-3,
-          .frames_per_update = 3};
+          .frames_per_update = 3,
+          .rain_drops_per_m2_s = 0.25};
 }
 
 inline WorldUpdate FullUpdate() {

@@ -78,13 +78,21 @@ TEST_F(BodyWaterTest, PressureFadesWithDepthAsTheExactSum) {
 TEST_F(BodyWaterTest, InteractionLayerAddsItsHeightWithoutFading) {
   BodyWater water;
   water.Add({0, 0}, 1.0);
-  const std::vector<double> interaction(water.points_m().size(), 0.25);
+  const std::vector<sea::InteractionFelt> interaction(water.points_m().size(), {0.25, {0.5, -0.1}});
   water.Fill({}, interaction);
   const WaterPoint point = SampleWater(WaterSampler(water.patch(0)), {0.1, 0.2, -3.0});
   EXPECT_NEAR(point.depth_m, 3.25, 1e-6);
   EXPECT_NEAR(point.head_m, 3.25, 1e-5);
   EXPECT_NEAR(water.incident(0).At(0, 0), 0.0,
               1e-9);  // what the hull displaces is counted from here
+  EXPECT_NEAR(point.velocity_m_per_s.x, 0.5, 1e-5);
+  EXPECT_NEAR(point.velocity_m_per_s.y, -0.1, 1e-5);
+  EXPECT_EQ(point.velocity_m_per_s.z, 0.0);
+  // A body whose own waves the layer carries must not be moved by their velocity.
+  water.Clear();
+  water.Add({0, 0}, 1.0, /*in_flow=*/false);
+  water.Fill({}, interaction);
+  EXPECT_EQ(SampleWater(WaterSampler(water.patch(0)), {0.1, 0.2, -3.0}).velocity_m_per_s.x, 0.0);
 }
 
 TEST_F(BodyWaterTest, MemoryIsUsedAgain) {

@@ -41,7 +41,7 @@ TEST(InteractionLayer, AnExplosionAddsItsWater) {
   ASSERT_TRUE(layer.Place(std::vector{Ask(1, 10, 20)}).ok());
   EXPECT_TRUE(layer.AddSource({12.3, 19.1}, 4.0, 7.5));
   layer.Step();
-  EXPECT_NEAR(Volume(layer), 7.5, 1e-3);
+  EXPECT_NEAR(Volume(layer), 7.5, 2e-3);  // the border takes the first of it
   EXPECT_GT(HeightAt(layer, {12.3, 19.1}), 0.3);
 }
 
@@ -220,8 +220,8 @@ TEST(InteractionLayer, HasOneHashEverywhere) {
   };
   for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
     hwy::SetSupportedTargetsForTest(target);
-    EXPECT_EQ(run(Beach()), 0x7cf56e478ca827deu) << hwy::TargetName(target);
-    EXPECT_EQ(run(nullptr), 0xa309c0cad149e0a7u) << hwy::TargetName(target);
+    EXPECT_EQ(run(Beach()), 0x7e7fe366d76d5b50u) << hwy::TargetName(target);
+    EXPECT_EQ(run(nullptr), 0x1f1d1ad4bec90ad3u) << hwy::TargetName(target);
   }
   hwy::SetSupportedTargetsForTest(0);
 }
