@@ -141,26 +141,41 @@ void Attenuation::SetShares(const Components& components) {
   }
 }
 
-AttenuationGrid Attenuation::At(std::span<const double> weights) const {
-  const DepthFactors depth_factors = shoaling_.At(weights);
-  AttenuationGrid grid = shape_;
-  grid.factor.resize(depth_m_.size() * grid.planes);
-  for (int plane = 0; plane < grid.planes; ++plane) {
-    double share[kDirections] = {}, whole_m2 = 0.0;
+// Share of each plane's variance that travels each way; all planes of a way side by side.
+Attenuation::Shares Attenuation::SharesOf(std::span<const double> weights) const {
+  Shares shares = {};
+  for (int plane = 0; plane < shape_.planes; ++plane) {
+    double whole_m2 = 0.0;
     for (std::size_t m = 0; m < entries_; ++m) {
       for (int t = 0; t < kDirections; ++t) {
-        share[t] += weights[m] * direction_m2_[(plane * entries_ + m) * kDirections + t];
+        shares[t][plane] += weights[m] * direction_m2_[(plane * entries_ + m) * kDirections + t];
       }
     }
-    for (const double m2 : share) whole_m2 += m2;
-    for (double& m2 : share) m2 = whole_m2 > 0.0 ? m2 / whole_m2 : 1.0 / kDirections;
-    for (std::size_t cell = 0; cell < depth_m_.size(); ++cell) {
-      if (!(depth_m_[cell] > 0.0f)) continue;  // land
-      double arriving = 0.0;
-      for (int t = 0; t < kDirections; ++t)
-        arriving += share[t] * arriving_[cell * kDirections + t];
-      grid.factor[cell * grid.planes + plane] = static_cast<float>(
-          depth_factors.At(plane, depth_m_[cell]) * std::sqrt(std::max(0.0, arriving)));
+    for (const auto& way : shares) whole_m2 += way[plane];
+    for (auto& way : shares) {
+      way[plane] = whole_m2 > 0.0 ? way[plane] / whole_m2 : 1.0 / kDirections;
+    }
+  }
+  return shares;
+}
+
+AttenuationGrid Attenuation::At(std::span<const double> weights) const {
+  const DepthFactors depth_factors = shoaling_.At(weights);
+  const Shares shares = SharesOf(weights);
+  AttenuationGrid grid = shape_;
+  grid.factor.resize(depth_m_.size() * grid.planes);
+  for (std::size_t cell = 0; cell < depth_m_.size(); ++cell) {
+    if (!(depth_m_[cell] > 0.0f)) continue;  // land
+    // Every plane has a sum of its own in the order of ways, so they can go side by side.
+    std::array<double, kPlanesMax> arriving = {};
+    for (int t = 0; t < kDirections; ++t) {
+      const double way = arriving_[cell * kDirections + t];
+      for (int p = 0; p < kPlanesMax; ++p) arriving[p] += shares[t][p] * way;
+    }
+    const DepthFactors::Place depth = DepthFactors::PlaceOf(depth_m_[cell]);
+    for (int p = 0; p < grid.planes; ++p) {
+      grid.factor[cell * grid.planes + p] =
+          static_cast<float>(depth_factors.At(p, depth) * std::sqrt(std::max(0.0, arriving[p])));
     }
   }
   for (const float f : grid.factor) grid.largest = std::max(grid.largest, f);

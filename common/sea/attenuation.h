@@ -1,10 +1,12 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
 
+#include "common/base/limits.h"
 #include "common/base/sim_time.h"
 #include "common/base/vec.h"
 #include "common/sea/shoaling.h"
@@ -69,11 +71,15 @@ class Attenuation {
   const Terrain& terrain() const { return *terrain_; }
   const std::shared_ptr<const Terrain>& shared_terrain() const { return terrain_; }
 
-  /// Pre: one weight for each weather entry, see WeatherWeights(). Cost: about 15 ns for each cell
-  /// and plane; call it when the weather has changed, not at every tick.
+  /// Pre: one weight for each weather entry, see WeatherWeights(). Cost: some 30 ns a cell; call it
+  /// when the weather has changed, not at every tick.
   AttenuationGrid At(std::span<const double> weights) const;
 
  private:
+  static constexpr int kPlanesMax = kCascadesMax + 1;
+  using Shares = std::array<std::array<double, kPlanesMax>, kDirections>;
+
+  Shares SharesOf(std::span<const double> weights) const;
   void SetDepths();
   void SetShares(const Components& components);
   void CarryAlong(int direction);

@@ -44,13 +44,17 @@ Plane PlaneOf(const std::vector<RegularComponent>& regular, std::size_t entries)
 
 }  // namespace
 
-double DepthFactors::At(int plane, double depth_m) const {
-  if (!(depth_m > 0.0)) return 0.0;
+DepthFactors::Place DepthFactors::PlaceOf(double depth_m) {
+  if (!(depth_m > 0.0)) return {};
   const double place = std::sqrt(std::min(depth_m / kDepthMaxM, 1.0)) * (kDepths - 1);
   const int n = std::min(static_cast<int>(place), kDepths - 2);
-  const float* at = &factor_[static_cast<std::size_t>(plane) * kDepths + n];
-  const double share = (place * place - n * n) / (2 * n + 1);  // of the way between the depths
-  return at[0] + share * (at[1] - at[0]);
+  return {n, (place * place - n * n) / (2 * n + 1)};
+}
+
+double DepthFactors::At(int plane, Place depth) const {
+  if (depth.n < 0) return 0.0;
+  const float* at = &factor_[static_cast<std::size_t>(plane) * kDepths + depth.n];
+  return at[0] + depth.share * (at[1] - at[0]);
 }
 
 Shoaling::Shoaling(const Components& components)

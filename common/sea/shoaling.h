@@ -50,8 +50,16 @@ class DepthFactors {
     return kDepthMaxM * share * share;
   }
 
+  /// Where a depth lies in the table.
+  struct Place {
+    int n = -1;          ///< of the depth above; negative: no water
+    double share = 0.0;  ///< of the way to the next
+  };
+  static Place PlaceOf(double depth_m);
+
   /// Linear between the table's depths: within 4e-3, and continuous.
-  double At(int plane, double depth_m) const;
+  double At(int plane, Place depth) const;
+  double At(int plane, double depth_m) const { return At(plane, PlaceOf(depth_m)); }
   int planes() const { return static_cast<int>(factor_.size()) / kDepths; }
 
  private:
