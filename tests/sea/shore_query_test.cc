@@ -177,8 +177,9 @@ TEST(ShoreQuery, BandsAddUpToTheHeight) {
       height_m += out[4 * (n * bands + b)];
       rise_m_per_s += out[4 * (n * bands + b) + 3];
     }
-    EXPECT_NEAR(height_m, samples[n].height_m, 2e-3) << n;
-    EXPECT_NEAR(rise_m_per_s, samples[n].velocity_z_m_per_s, 1e-4) << n;
+    // Points of bands are found to about a centimetre; without factors both are off by decimetres.
+    EXPECT_NEAR(height_m, samples[n].height_m, 5e-3) << n;
+    EXPECT_NEAR(rise_m_per_s, samples[n].velocity_z_m_per_s, 1e-2) << n;
   }
 }
 
