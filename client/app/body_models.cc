@@ -1,6 +1,9 @@
 #include "client/app/body_models.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <string>
 #include <utility>
 
 #include "absl/strings/match.h"
@@ -15,6 +18,30 @@ std::array<float, 3> PaintOf(std::uint32_t rgb) {
     return share * share;
   };
   return {channel(16), channel(8), channel(0)};
+}
+
+struct Bounds {
+  Vec3d low_m, high_m;
+};
+Bounds BoundsOf(const render::HullMesh& mesh) {
+  Bounds bounds{{1e9, 1e9, 1e9}, {-1e9, -1e9, -1e9}};
+  for (const render::HullCorner& corner : mesh.corners) {
+    const auto [x, y, z] = corner.position_m;
+    bounds.low_m = {std::min<double>(bounds.low_m.x, x), std::min<double>(bounds.low_m.y, y),
+                    std::min<double>(bounds.low_m.z, z)};
+    bounds.high_m = {std::max<double>(bounds.high_m.x, x), std::max<double>(bounds.high_m.y, y),
+                     std::max<double>(bounds.high_m.z, z)};
+  }
+  return bounds;
+}
+
+// The hulls of the server's own boats are plain; on them goes what a boat has above the deck. They
+// are told from anybody's "boat" by their name and by where their origin is: amidships on the keel.
+bool IsPresetBoat(const std::string& name, const Bounds& hull) {
+  constexpr double kNearM = 1e-3;
+  return (name == "boat" || name == "work-boat" || name == "motor-boat") &&
+         std::abs(hull.low_m.z) < kNearM && std::abs(hull.low_m.x + hull.high_m.x) < kNearM &&
+         std::abs(hull.low_m.y + hull.high_m.y) < kNearM;
 }
 
 }  // namespace
@@ -48,8 +75,15 @@ BodyModels::Model BodyModels::MakeModel(const wire::BodyInfo& info, MeshFetcher*
       return {look, render::CapsuleModel(shape.radius_m, shape.length_m), {}};
     case wire::ShapeKind::kSphere:
       return {look, render::BallModel(shape.radius_m), {}};
-    case wire::ShapeKind::kMesh:
-      return {look, meshes != nullptr ? meshes->Find(shape.mesh_hash) : nullptr, {}};
+    case wire::ShapeKind::kMesh: {
+      const render::SharedHullMesh mesh =
+          meshes != nullptr ? meshes->Find(shape.mesh_hash) : nullptr;
+      if (mesh == nullptr) return {look, nullptr, {}};
+      const Bounds hull = BoundsOf(*mesh);
+      if (!IsPresetBoat(info.name, hull)) return {look, mesh, {}};
+      const Vec3d size_m = hull.high_m - hull.low_m;
+      return {look, render::BoatModel(size_m.x, size_m.y, size_m.z), {}};
+    }
   }
   return {};
 }

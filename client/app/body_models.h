@@ -18,7 +18,7 @@ namespace onesea::client {
 ///
 /// Streams say shape and name, no looks: a box is drawn as a boat, a raft or a crate by its name
 /// ("boat", "raft"; else a crate), a cylinder as a buoy ("buoy") or a drum, a sphere as a fender. A
-/// mesh is drawn as soon as its file is there.
+/// mesh is drawn as soon as its file is there; the server's own boats get what boats have on deck.
 class BodyModels {
  public:
   /// The bodies at `time`, ready to be drawn; the one of `own` as that says, if there is one.
