@@ -1,4 +1,5 @@
-// Three boats, two wakes and what floats about: harbour_picture OUT.png [WIDTH HEIGHT SAMPLES VIEW]
+// Three boats, two wakes and what floats about: harbour_picture OUT.png [WIDTH HEIGHT SAMPLES VIEW]; from view 12 on with spray
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 
@@ -10,6 +11,21 @@
 
 namespace onesea::render {
 namespace {
+
+// From the bow of the red boat, which slams every second.
+void AddSpray(RenderFrame& frame) {
+  for (int n = 0; n < 36; ++n) {
+    const double side = n % 2 == 0 ? 1.0 : -1.0, age_s = 0.04 * (n / 2);
+    const Vec2d along{std::cos(0.5), std::sin(0.5)}, left{-along.y, along.x};
+    const Vec2d bow = Vec2d{18, -2} + (2.4 - 4.2 * age_s) * along + (side * 0.6) * left;
+    const Vec2d out = 1.6 * along + (side * 2.6) * left;
+    frame.spray.push_back({{bow.x, bow.y, 0.4},
+                           {out.x, out.y, 2.6},
+                           4.0 + 3.0 * (n % 3),
+                           age_s,
+                           static_cast<std::uint32_t>(n + 1)});
+  }
+}
 
 int Main(const char* path, int width, int height, int samples, int view) {
   auto context = OffscreenContext::Create();
@@ -33,7 +49,8 @@ int Main(const char* path, int width, int height, int samples, int view) {
       {{11, -6.5, 1.6}, 0.45, -0.06, 0.0, 0.9}, {{5.5, -1.2, 1.3}, 0.35, -0.15, 0.05, 0.9},
       {{-45, -10, 14}, 0.2, -0.12, 0.0, 0.5},   {{9, -5, -2.5}, 0.35, 0.18, 0.0, 0.9}};
   frame.camera = cameras[view % 6];
-  if (view >= 6) frame.sun = {0.5, 0.12};
+  if (view % 12 >= 6) frame.sun = {0.5, 0.12};
+  if (view >= 12) AddSpray(frame);
   ColorTarget target;
   target.Resize(width, height, GL_RGBA8);
   (*renderer)->Draw(frame, width, height, target.framebuffer.id());

@@ -14,12 +14,13 @@ namespace {
 
 absl::StatusOr<ShaderProgram> Build(const SurfaceVariant& variant) {
   const auto define = [](const char* name, int value) { return absl::StrCat(name, " ", value); };
-  const std::array<std::string, 10> definitions = {
+  const std::array<std::string, 11> definitions = {
       define("EDGES", variant.edges),     define("UNDERSIDE", variant.underside),
       define("RIPPLES", variant.ripples), define("REGULARS", variant.regular_waves),
       define("SAMPLES", variant.samples), define("CASCADES", variant.cascades),
       define("PATCHES", variant.patches), define("HULLS", variant.hulls),
-      define("TERRAIN", variant.terrain), define("ATTENUATED", variant.attenuated)};
+      define("TERRAIN", variant.terrain), define("ATTENUATED", variant.attenuated),
+      define("GROUND_COARSE", 1)};
   std::vector<std::string_view> files = {"frame.glsl", "sky.glsl", "optics.glsl"};
   if (variant.attenuated) files.push_back("attenuation.glsl");
   if (variant.terrain) files.push_back("ground.glsl");

@@ -102,7 +102,7 @@ absl::StatusOr<TerrainPass> TerrainPass::Create() {
     auto shade =
         ShaderProgram::Build({"fullscreen.vert.glsl"},
                              {"frame.glsl", "sky.glsl", "ground.glsl", "terrain_shade.frag.glsl"},
-                             {n == 0 ? "SAMPLES 1" : "SAMPLES 4"});
+                             {n == 0 ? "SAMPLES 1" : "SAMPLES 4", "GROUND_COARSE 0"});
     if (!shade.ok()) return shade.status();
     shades[n] = std::move(*shade);
   }

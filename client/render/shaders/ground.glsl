@@ -21,21 +21,30 @@ struct Ground {
   float wet;   // 0 dry .. 1 covered by a film of water
 };
 
-// `ground` as ground_at() gives it. The terrain's samples are metres apart: what is finer is noise.
+// `ground` as ground_at() gives it. With GROUND_COARSE half as many reads: for what is seen through
+// water. The terrain's samples are metres apart: what is finer is noise.
 Ground ground_of(vec2 xy, vec4 ground, float footprint_log2) {
   float height = ground.x;
   vec4 broad = grain_at(xy, 5.0, footprint_log2);
   vec4 middle = grain_at(xy.yx, 37.0, footprint_log2);
   vec4 fine = grain_at(xy, 331.0, footprint_log2);
+#if GROUND_COARSE
+  vec4 stones = fine, tiny = fine;
+#else
   vec4 stones = grain_at(xy.yx, 127.0, footprint_log2);
   vec4 tiny = grain_at(xy.yx, 1237.0, footprint_log2);
+#endif
   float steep = length(ground.yz);
   float rough = 0.5 * middle.r + 0.3 * fine.r + 0.2 * broad.r;
 
   // Rock where it is steep, and where it stands high over what is around it, as walls do; on land,
   // grass above the reach of the waves, sand below.
+#if GROUND_COARSE
+  float wall = 0.0;
+#else
   float around = textureLod(ground_map, xy * ground_place.zw + ground_place.xy, max(5.5 - ground_noise.z, 0.0)).x - ground_noise.w;
   float wall = smoothstep(1.2, 2.4, height - max(around, -3.0)) * (1.0 - smoothstep(2.5, 6.0, around));
+#endif
   float rock = max(smoothstep(0.34, 0.52, steep + 0.24 * (rough - 0.5)), wall);
   float wash = 0.35 + 0.25 * water_kd.w;  // height that waves reach [m]
   float green = smoothstep(1.1, 2.6, (height - wash) * (1.0 - 0.4 * steep) + 2.0 * (middle.r - 0.5) + (broad.r - 0.5));
@@ -44,7 +53,7 @@ Ground ground_of(vec2 xy, vec4 ground, float footprint_log2) {
   // Bushes in the hollows of the noise.
   float bush = 0.45 * middle.r + 0.30 * broad.r + 0.25 * stones.r;
   grass = mix(grass, vec3(0.022, 0.034, 0.014), smoothstep(0.56, 0.66, bush) * smoothstep(2.0, 7.0, height));
-  grass *= 0.62 + 0.75 * fine.r;
+  grass *= 0.72 + 0.25 * fine.r + 0.15 * stones.r + 0.16 * tiny.r;
   // Grains, pebbles and what the last waves left.
   sand *= (0.84 + 0.32 * tiny.r) * (1.0 - 0.3 * smoothstep(0.85, 1.0, fine.r) * smoothstep(0.7, 1.0, tiny.r));
   // Boulders with dark gaps between them.

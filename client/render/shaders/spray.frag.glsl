@@ -25,7 +25,7 @@ void main() {
 #endif
   float round = max(1.0 - dot(corner, corner), 0.0);
   float torn = texture(noise_map, noise_at).r;
-  float cover = opacity * round * smoothstep(0.25, 0.85, torn * 0.75 + 0.5 * round) * clamp(behind / soft_m + 0.35, 0.0, 1.0);
+  float cover = opacity * round * smoothstep(0.40, 0.95, torn * 0.75 + 0.45 * round) * clamp(behind / soft_m + 0.35, 0.0, 1.0);
   if (cover < 0.003) discard;
 
   // Drops scatter forwards (Henyey & Greenstein, g = 0.75); many of them, to all sides.

@@ -37,7 +37,7 @@ void main() {
   float slowed = exp(-age / tau);
   vec3 centre = place_age.xyz + 0.35 * size * toss + u * age + (v0 - u) * (tau * (1.0 - slowed));
   vec3 flight = u + (v0 - u) * slowed;
-  float radius = size * (mist ? 0.22 + 0.75 * age : 0.05 + 0.10 * draw() + 0.10 * age);
+  float radius = size * (mist ? 0.16 + 0.60 * age : 0.03 + 0.07 * draw() + 0.10 * age);
   float length_m = radius + (mist ? 0.0 : 0.030 * length(flight));
 
   vec3 to = centre - eye.xyz;
@@ -47,7 +47,7 @@ void main() {
   vec3 world = centre + side * (radius * corner.x) + along * (length_m * corner.y);
   offset_eye = world - eye.xyz;
   noise_at = corner * (mist ? 0.06 : 0.035) + vec2(draw(), draw());
-  opacity = (mist ? 0.16 : 0.62) * sqrt(max(left, 0.0)) * min(1.0, 0.35 + age * 12.0);
+  opacity = (mist ? 0.07 : 0.42) * sqrt(max(left, 0.0)) * min(1.0, 0.35 + age * 12.0);
   opacity *= radius * radius / ((radius + 0.01) * length_m);
   soft_m = radius;
   gl_Position = clip_from_world * vec4(world, 1.0);

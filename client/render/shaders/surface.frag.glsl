@@ -250,11 +250,11 @@ vec3 with_land(vec3 sky, vec2 place, float height, vec3 r, float deviation) {
   float run = max(length(r.xy), 1e-3);
   vec2 ahead = r.xy / run;
   float slope = abs(r.z) / run, hidden = 0.0, tall = 0.0;
-  for (int n = 0; n < 4; ++n) {
-    float far = 5.0 * float(1 << (2 * n)), lod = max(log2(far * 0.25) - ground_noise.z, 0.0);
+  for (int n = 0; n < 3; ++n) {
+    float far = 6.0 * pow(5.0, float(n)), lod = max(log2(far * 0.25) - ground_noise.z, 0.0);
     float rise = ground_at(place + ahead * far, lod).x - height;
     float over = rise - slope * far;
-    hidden = max(hidden, smoothstep(-0.5, 0.5, over / (far * (0.05 + deviation))) * smoothstep(0.2, 1.0, rise));
+    hidden = max(hidden, smoothstep(-0.5, 0.5, over / (far * (0.10 + 1.5 * deviation))) * smoothstep(0.2, 1.0, rise));
     tall = max(tall, rise);
   }
   vec3 albedo = mix(vec3(0.17, 0.155, 0.125), vec3(0.085, 0.09, 0.04), smoothstep(2.5, 8.0, tall));
