@@ -1,4 +1,5 @@
-// Three boats, two wakes and what floats about: harbour_picture OUT.png [WIDTH HEIGHT SAMPLES VIEW]; from view 12 on with spray
+// Three boats, two wakes and what floats about, from view 12 on with spray:
+//   harbour_picture OUT.png [WIDTH HEIGHT SAMPLES VIEW]
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
