@@ -61,11 +61,29 @@ void BodyWater::Fill(const IncidentSea& sea, std::span<const sea::InteractionFel
     bands_.resize(4 * points_m_.size() * sea.wavenumber_rad_per_m.size());
     sea.waves->SampleBands(points_m_, bands_);
   }
-  for (std::size_t n = 0; n < count_; ++n) FillOne(sea, interaction, places_[n]);
+  for (std::size_t n = 0; n < count_; ++n) FillOne(sea, places_[n]);
+  if (!interaction.empty()) AddInteraction(interaction);
 }
 
-void BodyWater::FillOne(const IncidentSea& sea, std::span<const sea::InteractionFelt> interaction,
-                        Place& place) const {
+void BodyWater::AddInteraction(std::span<const sea::InteractionFelt> interaction) {
+  ONESEA_CHECK(interaction.size() == points_m_.size());
+  for (std::size_t n = 0; n < count_; ++n) {
+    Place& place = places_[n];
+    WaterPatch& patch = place.patch;
+    const std::size_t points = static_cast<std::size_t>(place.side) * place.side;
+    for (std::size_t at = 0; at < points; ++at) {
+      const sea::InteractionFelt& felt = interaction[place.first_point + at];
+      float* to = patch.samples.data() + 4 * (patch.bands * at + patch.bands - 1);
+      to[0] = static_cast<float>(felt.height_m);
+      if (!place.in_flow) continue;
+      to[1] = static_cast<float>(felt.velocity_m_per_s.x);
+      to[2] = static_cast<float>(felt.velocity_m_per_s.y);
+    }
+    patch.FindHighest();
+  }
+}
+
+void BodyWater::FillOne(const IncidentSea& sea, Place& place) const {
   const std::size_t sea_bands = sea.waves == nullptr ? 0 : sea.wavenumber_rad_per_m.size();
   WaterPatch& patch = place.patch;
   patch.Resize(place.side, place.side, static_cast<int>(sea_bands) + 1);
@@ -87,14 +105,6 @@ void BodyWater::FillOne(const IncidentSea& sea, std::span<const sea::Interaction
     std::copy(from, from + 4 * sea_bands, to);
     to += 4 * sea_bands;
     std::fill(to, to + 4, 0.0f);
-    if (!interaction.empty()) {
-      const sea::InteractionFelt& felt = interaction[place.first_point + n];
-      to[0] = static_cast<float>(felt.height_m);
-      if (place.in_flow) {
-        to[1] = static_cast<float>(felt.velocity_m_per_s.x);
-        to[2] = static_cast<float>(felt.velocity_m_per_s.y);
-      }
-    }
     place.incident.height_m[n] = static_cast<float>(height_m);
   }
   patch.FindHighest();

@@ -42,6 +42,9 @@ class BodyWater {
   /// Cost: some 0.5 µs a sample.
   void Fill(const IncidentSea& sea, std::span<const sea::InteractionFelt> interaction);
 
+  /// Puts the interaction layer into patches that were filled without it.
+  void AddInteraction(std::span<const sea::InteractionFelt> interaction);
+
   const WaterPatch& patch(std::size_t body) const { return places_[body].patch; }
   /// Height of the incident sea and the level, without the interaction layer.
   const HeightPatch& incident(std::size_t body) const { return places_[body].incident; }
@@ -54,8 +57,7 @@ class BodyWater {
     WaterPatch patch{};
     HeightPatch incident{};
   };
-  void FillOne(const IncidentSea& sea, std::span<const sea::InteractionFelt> interaction,
-               Place& place) const;
+  void FillOne(const IncidentSea& sea, Place& place) const;
 
   std::vector<Place> places_;  // never shrinks; the first count_ are in use
   std::size_t count_ = 0;

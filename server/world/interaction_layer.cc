@@ -29,7 +29,7 @@ struct InteractionLayer::Grid {
         calm(solver->State()),
         foam(region_in.cells, options) {
     const std::size_t cells = region.cells.cells();
-    for (auto* values : {&source_m, &pressure_head_m, &pressed_m, &solid, &rest_height_m}) {
+    for (auto* values : {&source_m, &pressure_head_m, &solid, &rest_height_m}) {
       values->resize(cells);
     }
     forcing = {region.cells, region.traits, source_m, pressure_head_m, solid, rest_height_m};
@@ -56,11 +56,9 @@ struct InteractionLayer::Grid {
           before_m[At(i, j)] += std::exchange(other.before_m[from], 0.0f);
           between_m[At(i, j)] += std::exchange(other.between_m[from], 0.0f);
         }
-        if (other.was_pressed) pressed_m[At(i, j)] += std::exchange(other.pressed_m[from], 0.0f);
         if (other.forcing.any()) TakeDeposits(At(i, j), other, from);
       }
     }
-    was_pressed |= other.was_pressed;
     forcing.has_source |= other.forcing.has_source;
     forcing.has_pressure |= other.forcing.has_pressure;
     forcing.has_solid |= other.forcing.has_solid;
@@ -82,9 +80,6 @@ struct InteractionLayer::Grid {
     const int tick = static_cast<int>((steps - 1) % ticks);  // of those that one step covers
     if (tick == 0) StepSolver();
     if (ticks > 1) FindBetween(tick + 1);
-    was_pressed = forcing.has_pressure;
-    if (was_pressed) std::swap(pressure_head_m, pressed_m);
-    forcing.pressure_head_m = pressure_head_m;
     const auto clear = [](bool& has, std::vector<float>& values) {
       if (std::exchange(has, false)) std::fill(values.begin(), values.end(), 0.0f);
     };
@@ -172,8 +167,6 @@ struct InteractionLayer::Grid {
   std::vector<float> calm;                 // the state without a wave
   InteractionFoam foam;
   std::vector<float> source_m, pressure_head_m, solid, rest_height_m;
-  std::vector<float> pressed_m;  // the pressure head of the last step
-  bool was_pressed = false;      // any of it isn't zero
   RegionForcing forcing;
   std::vector<std::shared_ptr<sea::InteractionField>> published;
   std::shared_ptr<const sea::InteractionField> latest;  // of them; null: not yet
@@ -392,8 +385,9 @@ void InteractionLayer::AddFelt(std::span<const Vec2d> places,
       velocity_x = grid->latest->velocity_x;
       velocity_y = grid->latest->velocity_y;
     }
-    sea::AddFelt(grid->region.cells, grid->height_m(), some(grid->pressed_m, grid->was_pressed),
-                 velocity_x, velocity_y, places, sum);
+    sea::AddFelt(grid->region.cells, grid->height_m(),
+                 some(grid->pressure_head_m, grid->forcing.has_pressure), velocity_x, velocity_y,
+                 places, sum);
   }
 }
 
@@ -429,11 +423,9 @@ InteractionState InteractionLayer::State() const {
     state.regions.push_back({grid->region,
                              grid->solver->State(),
                              {foam.begin(), foam.end()},
-                             {},
                              grid->before_m,
                              grid->between_m,
                              grid->source_m});
-    if (grid->was_pressed) state.regions.back().pressed_m = grid->pressed_m;
   }
   return state;
 }
@@ -447,17 +439,13 @@ absl::Status InteractionLayer::Restore(const InteractionState& state) {
     const std::size_t cells = saved.region.cells.cells();
     if (saved.waves.size() != grid->calm.size() || saved.foam.size() != cells ||
         saved.before_m.size() != grid->before_m.size() || saved.source_m.size() != cells ||
-        saved.between_m.size() != grid->between_m.size() ||
-        (!saved.pressed_m.empty() && saved.pressed_m.size() != cells)) {
-      return absl::InvalidArgumentError(
-          absl::StrCat("region state of ", saved.waves.size(), ", ", saved.foam.size(), " and ",
-                       saved.pressed_m.size(), " numbers, not ", grid->calm.size(), ", ", cells,
-                       " and 0 or ", cells));
+        saved.between_m.size() != grid->between_m.size()) {
+      return absl::InvalidArgumentError(absl::StrCat("region state of ", saved.waves.size(),
+                                                     " and ", saved.foam.size(), " numbers, not ",
+                                                     grid->calm.size(), " and ", cells));
     }
     grid->solver->Restore(saved.waves);
     std::copy(saved.foam.begin(), saved.foam.end(), grid->foam.shares().begin());
-    std::copy(saved.pressed_m.begin(), saved.pressed_m.end(), grid->pressed_m.begin());
-    grid->was_pressed = !saved.pressed_m.empty();
     std::copy(saved.before_m.begin(), saved.before_m.end(), grid->before_m.begin());
     std::copy(saved.between_m.begin(), saved.between_m.end(), grid->between_m.begin());
     std::copy(saved.source_m.begin(), saved.source_m.end(), grid->source_m.begin());
@@ -492,7 +480,6 @@ std::uint64_t InteractionLayer::Hash() const {
     hash.Add(grid->region.damping_per_s);
     hash.AddFloats(grid->solver->State());
     hash.AddFloats(std::as_const(grid->foam).shares());
-    if (grid->was_pressed) hash.AddFloats(grid->pressed_m);
     if (grid->forcing.has_source) hash.AddFloats(grid->source_m);
     hash.AddFloats(grid->before_m);
     hash.AddFloats(grid->between_m);

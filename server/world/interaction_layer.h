@@ -58,7 +58,6 @@ struct InteractionState {
     Region region;
     std::vector<float> waves;                ///< WaveSolver::State
     std::vector<float> foam;                 ///< (rows x columns)
-    std::vector<float> pressed_m;            ///< (rows x columns), or empty: nothing pressed
     std::vector<float> before_m, between_m;  ///< likewise, or empty: the solver steps every tick
     std::vector<float> source_m;             ///< (rows x columns), waiting
   };
@@ -101,9 +100,9 @@ class InteractionLayer {
   void Step();
   int resets() const { return resets_; }  ///< how often that happened
 
-  /// Adds what hulls feel of the layer at these places: the heights plus the pressure heads of the
-  /// last step, and the velocities of the last Snapshot() that has them. Cost: 25 ns a place and
-  /// region, 40 where hulls press.
+  /// Adds what hulls feel of the layer at these places: the heights plus the pressure heads put in
+  /// for the next step, and the velocities of the last Snapshot() that has them.
+  /// Cost: 25 ns a place and region, 40 where hulls press.
   void AddFelt(std::span<const Vec2d> places, std::span<sea::InteractionFelt> sum) const;
 
   /// `velocities` costs another 0.1 ms a region of 256 x 256.

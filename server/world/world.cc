@@ -64,19 +64,21 @@ void World::Step(Tick tick, const std::shared_ptr<const sea::Components>& compon
   PlaceRegions().IgnoreError();  // a region without water is left out until there is some
   Done(WorldStage::kRegionsPlaced);
   SampleSea(tick_, components);
-  FloatNewBodies();
   Done(WorldStage::kSeaMade);
   FillWater();
   Done(WorldStage::kWaterSampled);
-  Water water(water_);
-  rigid_.Step(water, AirAt(components->recipe, start));
-  SprayFromBodies();
-  Done(WorldStage::kBodiesMoved);
   PressBodies();
   HoldObstacles();
   layer_.ForEachForcing(
       [&](RegionForcing& forcing) { RainOn(forcing, components->recipe.seed, tick_, step_s_); });
   Done(WorldStage::kPressed);
+  FloatNewBodies();
+  FeelTheLayer();
+  Done(WorldStage::kLayerFelt);
+  Water water(water_);
+  rigid_.Step(water, AirAt(components->recipe, start));
+  SprayFromBodies();
+  Done(WorldStage::kBodiesMoved);
   layer_.Step();
   Done(WorldStage::kRegionsStepped);
   tick_ = tick;
@@ -159,15 +161,21 @@ void World::FillWater() {
     water_.Add({state.pose.centre_m.x, state.pose.centre_m.y}, body.model->hull.radius_m(),
                body.model->spec.radiation == Radiation::kCoefficients);
   }
-  felt_.assign(water_.points_m().size(), {});
-  layer_.AddFelt(water_.points_m(), felt_);
   const IncidentSea sea{.waves = sea_.get(),
                         .wavenumber_rad_per_m = wavenumbers_,
                         .level_m = LevelAt(TimeOfTick(tick_, options_.tick_rate_hz)),
                         .current_m_per_s = options_.current_m_per_s,
                         .depth_m = options_.depth_m,
                         .terrain = options_.terrain.get()};
-  water_.Fill(sea, felt_);
+  water_.Fill(sea, {});
+}
+
+// The heads that hulls press now, on the water that answered to those before: both of this instant.
+// Heads of a step later or earlier would push a hull along its own hollow.
+void World::FeelTheLayer() {
+  felt_.assign(water_.points_m().size(), {});
+  layer_.AddFelt(water_.points_m(), felt_);
+  water_.AddInteraction(felt_);
 }
 
 Air World::AirAt(const sea::Recipe& recipe, SimTime time) const {
@@ -190,10 +198,10 @@ void World::PressBodies() {
 
 void World::PressBody(Body& body, const HeightPatch& incident) {
   const BodyState& state = body.stepped->state;
-  const BodyLoads& loads = body.stepped->loads;
+  const double wet_m3 = body.wetness.volume_m3;
   const Vec2d place{state.pose.centre_m.x, state.pose.centre_m.y};
   const BodyModel& model = *body.model;
-  const double share = std::min(loads.wet.volume_m3 / model.rest.volume_m3, 1.5);
+  const double share = std::min(wet_m3 / model.rest.volume_m3, 1.5);
   body.pressed_share += (share - body.pressed_share) * step_s_ / (kPressLagS + step_s_);
   RegionForcing* forcing = layer_.ForcingAt(place);
   if (forcing == nullptr) return;
@@ -213,7 +221,7 @@ void World::PressBody(Body& body, const HeightPatch& incident) {
   const Vec3d velocity = state.velocity_m_per_s;
   const double speed =
       std::hypot(velocity.x - options_.current_m_per_s.x, velocity.y - options_.current_m_per_s.y);
-  if (speed > kFoamSpeedMPerS && loads.wet.volume_m3 > 0.0) {
+  if (speed > kFoamSpeedMPerS && wet_m3 > 0.0) {
     const double strength =
         std::min(1.0, (speed - kFoamSpeedMPerS) / (kFullFoamSpeedMPerS - kFoamSpeedMPerS));
     layer_.AddFoam(place, 0.6 * model.hull.radius_m(), 4.0 * strength * step_s_);

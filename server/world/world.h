@@ -24,9 +24,9 @@
 /// Everything of a session that has history: bodies, regions of the interaction layer, walls.
 ///
 /// A tick, from t to t + step:
-///   1. the water around every body: the spectral sea at t in its bands, the interaction layer
-///   2. bodies move (rigid_bodies.h)
-///   3. what they press on the water goes into the regions (displaced_columns.h)
+///   1. the water around every body: the spectral sea at t in its bands
+///   2. what bodies press on the water goes into the regions (displaced_columns.h)
+///   3. bodies move (rigid_bodies.h), feeling the layer with that pressure
 ///   4. the regions advance
 /// A hull presses on the interaction layer with the head of the water that it displaces, reckoned
 /// from the incident sea. So still water makes room for it, a moving hull leaves its wake, and one
@@ -41,12 +41,13 @@ enum class WorldStage : std::uint8_t {
   kRegionsPlaced,
   kSeaMade,
   kWaterSampled,
-  kBodiesMoved,
   kPressed,
+  kLayerFelt,
+  kBodiesMoved,
   kRegionsStepped,
   kPublished,
 };
-inline constexpr int kWorldStages = 7;
+inline constexpr int kWorldStages = 8;
 
 struct WorldOptions {
   int tick_rate_hz = 60;
@@ -155,6 +156,7 @@ class World {
   void SampleSea(Tick tick, const std::shared_ptr<const sea::Components>& components);
   void FloatNewBodies();
   void FillWater();
+  void FeelTheLayer();
   Air AirAt(const sea::Recipe& recipe, SimTime time) const;
   double LevelAt(SimTime time) const;
   void PressBodies();

@@ -121,9 +121,9 @@ class Stages {
     last_ = now;
   }
   void Print(int ticks) const {
-    constexpr const char* kNames[] = {"place regions", "sea snapshot",     "water around bodies",
-                                      "bodies",        "press, obstacles", "regions",
-                                      "publish, felt"};
+    constexpr const char* kNames[] = {"place regions",    "sea snapshot", "water around bodies",
+                                      "press, obstacles", "feel layer",   "bodies",
+                                      "regions",          "publish"};
     for (int n = 0; n < kWorldStages; ++n) {
       std::printf("  %-20s %7.3f ms\n", kNames[n], 1e3 * seconds_[n] / ticks);
     }
