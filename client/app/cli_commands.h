@@ -24,5 +24,6 @@ CliCommand BodiesCommand();
 CliCommand DriveCommand();
 CliCommand ExplodeCommand();
 CliCommand RemoveCommand();
+CliCommand RopeCommand();
 
 }  // namespace onesea::app

@@ -11,7 +11,7 @@ int main(int argc, char** argv) {
       SessionsCommand(), CreateCommand(),   DeleteCommand(), QueryCommand(),  WatchCommand(),
       WeatherCommand(),  HoldCommand(),     ResumeCommand(), StepCommand(),   SpeedCommand(),
       HashCommand(),     SpectrumCommand(), SpawnCommand(),  BodiesCommand(), DriveCommand(),
-      ExplodeCommand(),  RemoveCommand()};
+      ExplodeCommand(),  RemoveCommand(),   RopeCommand()};
   // An error is one line; gRPC would add its own.
   setenv("GRPC_VERBOSITY", "NONE", /*overwrite=*/0);
   const char* server = std::getenv("ONESEA_SERVER");

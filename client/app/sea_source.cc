@@ -21,7 +21,8 @@ namespace {
 
 class FileSource : public SeaSource {
  public:
-  FileSource(std::string path, SessionSpec spec, std::shared_ptr<const sea::Components> components)
+  FileSource(std::string path, const SessionSpec& spec,
+             std::shared_ptr<const sea::Components> components)
       : path_(std::move(path)),
         speed_(spec.speed),
         water_level_(std::move(spec.world.water_level)),
@@ -209,6 +210,7 @@ absl::StatusOr<std::string> OnlySession(const std::string& address) {
   }
   if (sessions.size() == 1) return sessions[0].name;
   std::vector<std::string> names;
+  names.reserve(sessions.size());
   for (const SessionInfo& session : sessions) names.push_back(session.name);
   return absl::InvalidArgumentError(absl::StrCat(
       address, " has several sessions, choose one with --session: ", absl::StrJoin(names, ", ")));

@@ -41,6 +41,12 @@ Method<v1::AddRegionRequest, v1::AddRegionResponse> MethodOf(const wire::AddRegi
 Method<v1::RemoveRegionRequest, v1::RemoveRegionResponse> MethodOf(const wire::RemoveRegion&) {
   return &v1::OneSea::Stub::RemoveRegion;
 }
+Method<v1::AddRopeRequest, v1::AddRopeResponse> MethodOf(const wire::AddRope&) {
+  return &v1::OneSea::Stub::AddRope;
+}
+Method<v1::RemoveRopeRequest, v1::RemoveRopeResponse> MethodOf(const wire::RemoveRope&) {
+  return &v1::OneSea::Stub::RemoveRope;
+}
 Method<v1::TakeLeaseRequest, v1::TakeLeaseResponse> MethodOf(const wire::TakeLease&) {
   return &v1::OneSea::Stub::TakeLease;
 }
@@ -55,6 +61,7 @@ CommandAnswer AnswerOf(const Response& response) {
   if constexpr (requires { response.body_id(); }) answer.id = response.body_id();
   if constexpr (requires { response.obstacle_id(); }) answer.id = response.obstacle_id();
   if constexpr (requires { response.region_id(); }) answer.id = response.region_id();
+  if constexpr (requires { response.rope_id(); }) answer.id = response.rope_id();
   if constexpr (requires { response.lease(); }) answer.lease = response.lease();
   return answer;
 }

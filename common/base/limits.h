@@ -80,7 +80,10 @@ inline constexpr int kBodyNameLengthMax = 64;
 inline constexpr int kBodyAgeTicksMax =
     10'000;                             // of a state in a keyframe; those at rest are older
 inline constexpr int kRopesMax = 1024;  // of one session
-inline constexpr int kBodyContactPairsMax = 12;  // of one body; more touch nothing
+inline constexpr double kRopeLengthMaxM = 1e4;
+inline constexpr double kRopeStretchMax = 1.5;         // of a new one
+inline constexpr double kRopeStiffnessMaxNPerM = 1e9;  // damping too, in N s/m
+inline constexpr int kBodyContactPairsMax = 12;        // of one body; more touch nothing
 
 // Commands on the world.
 inline constexpr int kRequestIdLengthMax = 64;

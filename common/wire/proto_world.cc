@@ -104,6 +104,12 @@ absl::StatusOr<HeadedCommand> FromProto(const v1::AddRegionRequest& proto) {
 absl::StatusOr<HeadedCommand> FromProto(const v1::RemoveRegionRequest& proto) {
   return Headed(proto.command(), RemoveRegion{proto.region_id()});
 }
+absl::StatusOr<HeadedCommand> FromProto(const v1::AddRopeRequest& proto) {
+  return Headed(proto.command(), AddRope{FromProto(proto.rope())});
+}
+absl::StatusOr<HeadedCommand> FromProto(const v1::RemoveRopeRequest& proto) {
+  return Headed(proto.command(), RemoveRope{proto.rope_id()});
+}
 absl::StatusOr<HeadedCommand> FromProto(const v1::TakeLeaseRequest& proto) {
   TakeLease lease{proto.body_id(), proto.holder()};
   // Not `!= 0`: NaN must go on to the validation, which refuses it.
@@ -156,6 +162,12 @@ void ToProto(const AddRegion& command, v1::AddRegionRequest* out) {
 }
 void ToProto(const RemoveRegion& command, v1::RemoveRegionRequest* out) {
   out->set_region_id(command.region_id);
+}
+void ToProto(const AddRope& command, v1::AddRopeRequest* out) {
+  ToProto(command.rope, out->mutable_rope());
+}
+void ToProto(const RemoveRope& command, v1::RemoveRopeRequest* out) {
+  out->set_rope_id(command.rope_id);
 }
 void ToProto(const TakeLease& command, v1::TakeLeaseRequest* out) {
   out->set_body_id(command.body_id);

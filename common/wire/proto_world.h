@@ -18,6 +18,8 @@ absl::StatusOr<WorldSpec> FromProto(const v1::WorldSpec& proto, const std::strin
 
 void ToProto(const RegionSpec& region, v1::RegionSpec* out);
 absl::StatusOr<RegionSpec> FromProto(const v1::RegionSpec& proto);
+void ToProto(const RopeSpec& rope, v1::Rope* out);
+RopeSpec FromProto(const v1::Rope& proto);
 
 /// A command with its header, validated.
 struct HeadedCommand {
@@ -33,6 +35,8 @@ absl::StatusOr<HeadedCommand> FromProto(const v1::SetObstacleRequest& proto);
 absl::StatusOr<HeadedCommand> FromProto(const v1::RemoveObstacleRequest& proto);
 absl::StatusOr<HeadedCommand> FromProto(const v1::AddRegionRequest& proto);
 absl::StatusOr<HeadedCommand> FromProto(const v1::RemoveRegionRequest& proto);
+absl::StatusOr<HeadedCommand> FromProto(const v1::AddRopeRequest& proto);
+absl::StatusOr<HeadedCommand> FromProto(const v1::RemoveRopeRequest& proto);
 absl::StatusOr<HeadedCommand> FromProto(const v1::TakeLeaseRequest& proto);
 absl::StatusOr<HeadedCommand> FromProto(const v1::ReleaseLeaseRequest& proto);
 
@@ -47,6 +51,8 @@ void ToProto(const SetObstacle& command, v1::SetObstacleRequest* out);
 void ToProto(const RemoveObstacle& command, v1::RemoveObstacleRequest* out);
 void ToProto(const AddRegion& command, v1::AddRegionRequest* out);
 void ToProto(const RemoveRegion& command, v1::RemoveRegionRequest* out);
+void ToProto(const AddRope& command, v1::AddRopeRequest* out);
+void ToProto(const RemoveRope& command, v1::RemoveRopeRequest* out);
 void ToProto(const TakeLease& command, v1::TakeLeaseRequest* out);
 void ToProto(const ReleaseLease& command, v1::ReleaseLeaseRequest* out);
 

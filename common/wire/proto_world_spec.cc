@@ -65,6 +65,26 @@ absl::StatusOr<RegionSpec> FromProto(const v1::RegionSpec& proto) {
   return region;
 }
 
+void ToProto(const RopeSpec& rope, v1::Rope* out) {
+  out->mutable_from()->set_body_id(rope.from.body_id);
+  ToProto(rope.from.point_m, out->mutable_from()->mutable_point_m());
+  out->mutable_to()->set_body_id(rope.to.body_id);
+  ToProto(rope.to.point_m, out->mutable_to()->mutable_point_m());
+  out->set_length_m(rope.length_m);
+  out->set_stiffness_n_per_m(rope.stiffness_n_per_m);
+  out->set_damping_n_s_per_m(rope.damping_n_s_per_m);
+}
+
+RopeSpec FromProto(const v1::Rope& proto) {
+  RopeSpec rope;
+  rope.from = {proto.from().body_id(), FromProto(proto.from().point_m())};
+  rope.to = {proto.to().body_id(), FromProto(proto.to().point_m())};
+  rope.length_m = proto.length_m();
+  if (proto.has_stiffness_n_per_m()) rope.stiffness_n_per_m = proto.stiffness_n_per_m();
+  if (proto.has_damping_n_s_per_m()) rope.damping_n_s_per_m = proto.damping_n_s_per_m();
+  return rope;
+}
+
 void ToProto(const WorldSpec& world, v1::WorldSpec* out) {
   // A path is of one machine; what is read from it has its own message.
   for (const RegionSpec& region : world.regions) ToProto(region, out->add_regions());
@@ -78,6 +98,7 @@ void ToProto(const WorldSpec& world, v1::WorldSpec* out) {
     to->set_time_s(level.time_s);
     to->set_level_m(level.level_m);
   }
+  for (const RopeSpec& rope : world.ropes) ToProto(rope, out->add_ropes());
   if (!world.body_wind_m_per_s) return;
   const Vec2d wind = *world.body_wind_m_per_s;
   out->mutable_body_wind()->set_speed_m_per_s(Norm(wind));
@@ -105,6 +126,7 @@ absl::StatusOr<WorldSpec> FromProto(const v1::WorldSpec& proto, const std::strin
   for (const v1::WaterLevel& level : proto.water_level()) {
     world.water_level.push_back({level.time_s(), level.level_m()});
   }
+  for (const v1::Rope& rope : proto.ropes()) world.ropes.push_back(FromProto(rope));
   if (proto.has_body_wind()) {
     ONESEA_ASSIGN_OR_RETURN(world.body_wind_m_per_s, ReadWind(proto.body_wind()));
   }

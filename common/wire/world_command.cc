@@ -93,6 +93,8 @@ absl::Status Check(const AddRegion& command) {
 absl::Status Check(const RemoveRegion& command) {
   return CheckId("", "region_id", command.region_id);
 }
+absl::Status Check(const AddRope& command) { return ValidateRopeSpec("rope.", command.rope); }
+absl::Status Check(const RemoveRope& command) { return CheckId("", "rope_id", command.rope_id); }
 absl::Status Check(const TakeLease& command) {
   ONESEA_RETURN_IF_ERROR(CheckId("", "body_id", command.body_id));
   ONESEA_RETURN_IF_ERROR(CheckText("", "holder", command.holder, kBodyNameLengthMax));

@@ -57,6 +57,13 @@ struct AddRegion {
 struct RemoveRegion {
   std::uint32_t region_id = 0;
 };
+/// Between bodies, or a body and the world.
+struct AddRope {
+  RopeSpec rope;
+};
+struct RemoveRope {
+  std::uint32_t rope_id = 0;
+};
 struct TakeLease {
   std::uint32_t body_id = 0;
   std::string holder;        ///< for people
@@ -66,9 +73,9 @@ struct ReleaseLease {
   std::uint32_t body_id = 0;
 };
 
-using WorldCommand =
-    std::variant<SpawnBody, RemoveBody, DriveBody, ApplyImpulse, Explode, SetObstacle,
-                 RemoveObstacle, AddRegion, RemoveRegion, TakeLease, ReleaseLease>;
+using WorldCommand = std::variant<SpawnBody, RemoveBody, DriveBody, ApplyImpulse, Explode,
+                                  SetObstacle, RemoveObstacle, AddRegion, RemoveRegion, AddRope,
+                                  RemoveRope, TakeLease, ReleaseLease>;
 
 /// Of a body that its owner integrates, in a stream of poses.
 struct BodyPose {

@@ -73,6 +73,22 @@ double WaterLevelAt(std::span<const WaterLevel> levels, SimTime time) {
   return before->level_m + share * (after->level_m - before->level_m);
 }
 
+absl::Status ValidateRopeSpec(const std::string& prefix, const RopeSpec& rope) {
+  ONESEA_RETURN_IF_ERROR(
+      CheckVector(prefix, "from.point_m", rope.from.point_m, kQueryCoordinateMaxM));
+  ONESEA_RETURN_IF_ERROR(CheckVector(prefix, "to.point_m", rope.to.point_m, kQueryCoordinateMaxM));
+  if (rope.from.body_id == rope.to.body_id) {
+    return absl::InvalidArgumentError(absl::StrCat(
+        prefix, "to.body_id: ", rope.to.body_id,
+        rope.to.body_id == 0 ? ": both ends are in the world" : ": both ends are on this body"));
+  }
+  ONESEA_RETURN_IF_ERROR(CheckReal(prefix, "length_m", rope.length_m, 1e-3, kRopeLengthMaxM));
+  ONESEA_RETURN_IF_ERROR(
+      CheckReal(prefix, "stiffness_n_per_m", rope.stiffness_n_per_m, 1e-6, kRopeStiffnessMaxNPerM));
+  return CheckReal(prefix, "damping_n_s_per_m", rope.damping_n_s_per_m, 0.0,
+                   kRopeStiffnessMaxNPerM);
+}
+
 absl::Status ValidateWorldSpec(const std::string& prefix, const WorldSpec& world) {
   ONESEA_RETURN_IF_ERROR(CheckSize(prefix, "regions", world.regions.size(), kRegionsMax));
   ONESEA_RETURN_IF_ERROR(CheckSize(prefix, "bodies", world.bodies.size(), kBodiesMax));
@@ -90,6 +106,15 @@ absl::Status ValidateWorldSpec(const std::string& prefix, const WorldSpec& world
     const std::string entry = absl::StrCat(prefix, "bodies[", n, "].");
     ONESEA_RETURN_IF_ERROR(ValidateBodyDescription(entry + "body.", world.bodies[n].body));
     ONESEA_RETURN_IF_ERROR(ValidateKinematics(entry + "start.", world.bodies[n].start));
+  }
+  ONESEA_RETURN_IF_ERROR(CheckSize(prefix, "ropes", world.ropes.size(), kRopesMax));
+  for (std::size_t n = 0; n < world.ropes.size(); ++n) {
+    const std::string entry = absl::StrCat(prefix, "ropes[", n, "].");
+    const RopeSpec& rope = world.ropes[n];
+    const auto last = static_cast<std::int64_t>(world.bodies.size());
+    ONESEA_RETURN_IF_ERROR(CheckInteger(entry, "from.body_id", rope.from.body_id, 0, last));
+    ONESEA_RETURN_IF_ERROR(CheckInteger(entry, "to.body_id", rope.to.body_id, 0, last));
+    ONESEA_RETURN_IF_ERROR(ValidateRopeSpec(entry, rope));
   }
   if (world.body_wind_m_per_s) {
     ONESEA_RETURN_IF_ERROR(CheckReal(prefix, "body_wind.speed_m_per_s",

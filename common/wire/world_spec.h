@@ -58,12 +58,28 @@ struct WaterLevel {
   friend bool operator==(const WaterLevel&, const WaterLevel&) = default;
 };
 
+struct RopeEnd {
+  std::uint32_t body_id = 0;  ///< 0: `point_m` stands still in the world
+  Vec3d point_m;              ///< body frame, or world
+  friend bool operator==(const RopeEnd&, const RopeEnd&) = default;
+};
+
+/// A mooring line or a tow rope: a spring that only pulls.
+struct RopeSpec {
+  RopeEnd from, to;
+  double length_m = 10.0;          ///< slack below; (0, 10000]
+  double stiffness_n_per_m = 1e4;  ///< (0, 1e9]
+  double damping_n_s_per_m = 1e3;  ///< [0, 1e9] while taut
+  friend bool operator==(const RopeSpec&, const RopeSpec&) = default;
+};
+
 struct WorldSpec {
   std::string terrain_path;                ///< a file beside the server; empty: no terrain
   std::vector<RegionSpec> regions;         ///< follow_body_id counts `bodies` from 1
   std::vector<StartBody> bodies;           ///< they get the ids 1, 2, ...
   std::vector<WaterLevel> water_level;     ///< ascending times; linear between, constant outside
   std::optional<Vec2d> body_wind_m_per_s;  ///< where it blows to; none: the sea's wind
+  std::vector<RopeSpec> ropes;             ///< between `bodies`, counted from 1
   bool empty() const { return *this == WorldSpec{}; }
   friend bool operator==(const WorldSpec&, const WorldSpec&) = default;
 };
@@ -72,6 +88,8 @@ struct WorldSpec {
 absl::Status ValidateKinematics(const std::string& prefix, const Kinematics& kinematics);
 absl::Status ValidateRegionSpec(const std::string& prefix, const RegionSpec& region);
 absl::Status ValidateWaterLevel(const std::string& prefix, std::span<const WaterLevel> levels);
+/// Also for ends on one and the same body, or both in the world.
+absl::Status ValidateRopeSpec(const std::string& prefix, const RopeSpec& rope);
 absl::Status ValidateWorldSpec(const std::string& prefix, const WorldSpec& world);
 
 /// Of the whole sea above the mean [m]: linear between entries, constant outside, 0 without any.

@@ -31,8 +31,9 @@ template <class Base>
 using WithWaterMethods = v1::OneSea::WithCallbackMethod_Explode<
     v1::OneSea::WithCallbackMethod_SetObstacle<v1::OneSea::WithCallbackMethod_RemoveObstacle<
         v1::OneSea::WithCallbackMethod_AddRegion<v1::OneSea::WithCallbackMethod_RemoveRegion<
-            v1::OneSea::WithCallbackMethod_StreamInstruments<
-                v1::OneSea::WithCallbackMethod_GetTerrain<Base>>>>>>>;
+            v1::OneSea::WithCallbackMethod_AddRope<v1::OneSea::WithCallbackMethod_RemoveRope<
+                v1::OneSea::WithCallbackMethod_StreamInstruments<
+                    v1::OneSea::WithCallbackMethod_GetTerrain<Base>>>>>>>>>;
 
 using OneSeaMethods =
     WithWaterMethods<WithBodyMethods<WithQueryMethods<WithSessionMethods<WatchMethods>>>>;

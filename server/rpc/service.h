@@ -82,6 +82,12 @@ class OneSeaService final : public OneSeaMethods {
   grpc::ServerUnaryReactor* RemoveRegion(grpc::CallbackServerContext* context,
                                          const v1::RemoveRegionRequest* request,
                                          v1::RemoveRegionResponse* response) override;
+  grpc::ServerUnaryReactor* AddRope(grpc::CallbackServerContext* context,
+                                    const v1::AddRopeRequest* request,
+                                    v1::AddRopeResponse* response) override;
+  grpc::ServerUnaryReactor* RemoveRope(grpc::CallbackServerContext* context,
+                                       const v1::RemoveRopeRequest* request,
+                                       v1::RemoveRopeResponse* response) override;
   grpc::ServerUnaryReactor* TakeLease(grpc::CallbackServerContext* context,
                                       const v1::TakeLeaseRequest* request,
                                       v1::TakeLeaseResponse* response) override;

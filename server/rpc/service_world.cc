@@ -129,6 +129,22 @@ grpc::ServerUnaryReactor* OneSeaService::AddRegion(grpc::CallbackServerContext* 
   return reactor;
 }
 
+grpc::ServerUnaryReactor* OneSeaService::AddRope(grpc::CallbackServerContext* context,
+                                                 const v1::AddRopeRequest* request,
+                                                 v1::AddRopeResponse* response) {
+  grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
+  Command<v1::AddRopeRequest, v1::AddRopeResponse>(
+      registry_, *request, response, reactor,
+      [](const CommandResult& result, v1::AddRopeResponse* out) { out->set_rope_id(result.id); });
+  return reactor;
+}
+
+grpc::ServerUnaryReactor* OneSeaService::RemoveRope(grpc::CallbackServerContext* context,
+                                                    const v1::RemoveRopeRequest* request,
+                                                    v1::RemoveRopeResponse* response) {
+  return Command(context, registry_, request, response);
+}
+
 grpc::ServerUnaryReactor* OneSeaService::TakeLease(grpc::CallbackServerContext* context,
                                                    const v1::TakeLeaseRequest* request,
                                                    v1::TakeLeaseResponse* response) {

@@ -1,5 +1,6 @@
 // Commands on a session's world: when they act, who may give them, who is answered.
 
+#include <array>
 #include <iterator>
 #include <utility>
 
@@ -14,12 +15,21 @@ constexpr std::int64_t kAheadMaxS = 60;
 // Of whoever spawned the body.
 constexpr double kSpawnLeaseS = 60.0;
 
-// The body that a command acts on, 0 for none.
-std::uint32_t BodyOf(const wire::WorldCommand& command) {
+// The bodies that a command acts on; 0 is none.
+std::array<std::uint32_t, 2> BodiesOf(const wire::WorldCommand& command,
+                                      const world::World& world) {
+  const auto ends_of = [](const wire::RopeSpec& rope) -> std::array<std::uint32_t, 2> {
+    return {rope.from.body_id, rope.to.body_id};
+  };
+  if (const auto* add = std::get_if<wire::AddRope>(&command)) return ends_of(add->rope);
+  if (const auto* remove = std::get_if<wire::RemoveRope>(&command)) {
+    const wire::RopeSpec* rope = world.FindRope(remove->rope_id);
+    return rope == nullptr ? std::array<std::uint32_t, 2>{} : ends_of(*rope);
+  }
   return std::visit(
-      [](const auto& one) -> std::uint32_t {
-        if constexpr (requires { one.body_id; }) return one.body_id;
-        return 0;
+      [](const auto& one) -> std::array<std::uint32_t, 2> {
+        if constexpr (requires { one.body_id; }) return {one.body_id, 0};
+        return {};
       },
       command);
 }
@@ -71,15 +81,15 @@ absl::StatusOr<CommandResult> SessionRunner::Act(const CommandRequest& request,
         result.lease, leases_.Take(take->body_id, shown, take->holder, take->duration_s, now_ns));
     return result;
   }
-  const std::uint32_t body = BodyOf(request.command);
-  if (body != 0 && world.HasBody(body)) {
-    ONESEA_RETURN_IF_ERROR(leases_.Use(body, shown, now_ns));
+  const std::array<std::uint32_t, 2> bodies = BodiesOf(request.command, world);
+  for (const std::uint32_t body : bodies) {
+    if (world.HasBody(body)) ONESEA_RETURN_IF_ERROR(leases_.Use(body, shown, now_ns));
   }
   ONESEA_ASSIGN_OR_RETURN(result.id, world.Apply(request.command));
   if (std::holds_alternative<wire::ReleaseLease>(request.command)) {
-    ONESEA_RETURN_IF_ERROR(leases_.Release(body, shown, now_ns));
+    ONESEA_RETURN_IF_ERROR(leases_.Release(bodies[0], shown, now_ns));
   }
-  if (std::holds_alternative<wire::RemoveBody>(request.command)) leases_.Forget(body);
+  if (std::holds_alternative<wire::RemoveBody>(request.command)) leases_.Forget(bodies[0]);
   return result;
 }
 

@@ -70,7 +70,7 @@ absl::StatusOr<BodyId> RigidBodies::Add(std::shared_ptr<const BodyModel> model,
 absl::Status RigidBodies::Remove(BodyId id) {
   if (Find(id) == nullptr) return NoBody(id);
   std::erase_if(ropes_, [&](const auto& rope) {
-    return rope.second.spec.from.body == id || rope.second.spec.to.body == id;
+    return rope.second.spec.from.body_id == id || rope.second.spec.to.body_id == id;
   });
   contacts_->Remove(id);
   bodies_.erase(id);
@@ -119,14 +119,21 @@ absl::Status RigidBodies::SetMotion(BodyId id, const Pose& pose, Vec3d velocity_
   return absl::OkStatus();
 }
 
-absl::StatusOr<RopeId> RigidBodies::AddRope(const RopeSpec& spec) {
-  if (absl::Status s = ValidateRope(spec); !s.ok()) return s;
-  for (BodyId id : {spec.from.body, spec.to.body}) {
+absl::StatusOr<RopeId> RigidBodies::AddRope(const wire::RopeSpec& spec) {
+  if (absl::Status s = wire::ValidateRopeSpec("rope.", spec); !s.ok()) return s;
+  for (BodyId id : {spec.from.body_id, spec.to.body_id}) {
     if (id != kNoBody && Find(id) == nullptr) return NoBody(id);
   }
   if (ropes_.size() >= kRopesMax) {
     return absl::ResourceExhaustedError(
         absl::StrCat("the session has ", kRopesMax, " ropes, the most it can"));
+  }
+  // As a catapult it would be of no use to sailors.
+  const double apart_m = Norm(PlaceOf(spec.to) - PlaceOf(spec.from));
+  if (apart_m > kRopeStretchMax * spec.length_m) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("rope.length_m: ", spec.length_m, ", but its ends are ", apart_m,
+                     " m apart; at most ", kRopeStretchMax, " times the length"));
   }
   const RopeId id = next_id_++;
   ropes_[id] = {spec, 0.0};
@@ -134,8 +141,13 @@ absl::StatusOr<RopeId> RigidBodies::AddRope(const RopeSpec& spec) {
 }
 
 absl::Status RigidBodies::RemoveRope(RopeId id) {
-  if (ropes_.erase(id) == 0) return absl::NotFoundError(absl::StrCat("no rope ", id));
-  return absl::OkStatus();
+  if (ropes_.erase(id) != 0) return absl::OkStatus();
+  return absl::NotFoundError(absl::StrCat("rope_id: there is no rope ", id));
+}
+
+const wire::RopeSpec* RigidBodies::FindRope(RopeId id) const {
+  const auto found = ropes_.find(id);
+  return found == ropes_.end() ? nullptr : &found->second.spec;
 }
 
 namespace {
@@ -178,8 +190,15 @@ void RigidBodies::MoveAlone(SteppedBody& entry, WaterSource& water, const Air& a
   KeepInTheWorld(entry.state);
 }
 
-RopeBody RigidBodies::EndOf(const RopeEnd& end) {
-  SteppedBody* entry = Find(end.body);
+Vec3d RigidBodies::PlaceOf(const wire::RopeEnd& end) {
+  const SteppedBody* entry = Find(end.body_id);
+  if (entry == nullptr) return end.point_m;
+  const Pose& pose = entry->state.pose;
+  return pose.centre_m + ToMatrix(pose.turn) * (end.point_m - entry->model->centre_of_mass_m);
+}
+
+RopeBody RigidBodies::EndOf(const wire::RopeEnd& end) {
+  SteppedBody* entry = Find(end.body_id);
   if (entry == nullptr) return {nullptr, nullptr, end.point_m};
   const Pose& start = entry->start;
   const Vec3d at =
@@ -191,7 +210,7 @@ RopeBody RigidBodies::EndOf(const RopeEnd& end) {
 // Stretch at the start of the step, velocities at its end.
 void RigidBodies::PullRopes() {
   for (auto& [id, rope] : ropes_) {
-    SteppedBody* ends[2] = {Find(rope.spec.from.body), Find(rope.spec.to.body)};
+    SteppedBody* ends[2] = {Find(rope.spec.from.body_id), Find(rope.spec.to.body_id)};
     Vec3d velocity[2], spin[2];
     for (int n = 0; n < 2; ++n) {
       if (ends[n] == nullptr) continue;

@@ -42,7 +42,7 @@ struct RigidBodiesState {
   };
   struct Rope {
     RopeId id = 0;
-    RopeSpec spec;
+    wire::RopeSpec spec;
   };
   std::int64_t next_id = 1;
   std::vector<Body> bodies;  ///< ascending ids
@@ -71,9 +71,12 @@ class RigidBodies {
   /// Of a body that its owner integrates. FailedPrecondition for others.
   absl::Status SetMotion(BodyId id, const Pose& pose, Vec3d velocity_m_per_s, Vec3d spin_rad_per_s);
 
-  /// NotFound for an unknown body, InvalidArgument, ResourceExhausted beyond kRopesMax.
-  absl::StatusOr<RopeId> AddRope(const RopeSpec& spec);
+  /// NotFound for an unknown body, InvalidArgument also for ends further apart than kRopeStretchMax
+  /// lengths, ResourceExhausted beyond kRopesMax.
+  absl::StatusOr<RopeId> AddRope(const wire::RopeSpec& spec);
   absl::Status RemoveRope(RopeId id);
+  /// Null where there is no such rope; valid until the next change.
+  const wire::RopeSpec* FindRope(RopeId id) const;
 
   /// Advances by step_s. Bounded cost whatever the bodies do: at most kBodyContactPairsMax contacts
   /// a body.
@@ -100,12 +103,13 @@ class RigidBodies {
 
  private:
   struct RopeEntry {
-    RopeSpec spec;
+    wire::RopeSpec spec;
     double tension_n = 0.0;
   };
 
   SteppedBody* Find(BodyId id);
-  RopeBody EndOf(const RopeEnd& end);
+  Vec3d PlaceOf(const wire::RopeEnd& end);
+  RopeBody EndOf(const wire::RopeEnd& end);
   void MoveAlone(SteppedBody& entry, WaterSource& water, const Air& air);
   void PullRopes();
 

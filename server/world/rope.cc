@@ -1,9 +1,5 @@
 #include "server/world/rope.h"
 
-#include "absl/strings/str_cat.h"
-#include "common/base/limits.h"
-#include "common/base/range_check.h"
-
 namespace onesea::world {
 namespace {
 
@@ -25,27 +21,8 @@ double Mobility(const RopeBody& body, Vec3d direction) {
 
 }  // namespace
 
-absl::Status ValidateRope(const RopeSpec& spec) {
-  for (const RopeEnd* end : {&spec.from, &spec.to}) {
-    for (double value : {end->point_m.x, end->point_m.y, end->point_m.z}) {
-      absl::Status s =
-          CheckInRange("rope.point_m", value, -kQueryCoordinateMaxM, kQueryCoordinateMaxM);
-      if (!s.ok()) return s;
-    }
-  }
-  if (spec.from.body == spec.to.body) {
-    return absl::InvalidArgumentError("rope: both ends are on the same body, or on none");
-  }
-  for (const absl::Status& s :
-       {CheckAbove("rope.length_m", spec.length_m, 0.0, 1e4),
-        CheckAbove("rope.stiffness_n_per_m", spec.stiffness_n_per_m, 0.0, 1e9),
-        CheckInRange("rope.damping_n_s_per_m", spec.damping_n_s_per_m, 0.0, 1e9)}) {
-    if (!s.ok()) return s;
-  }
-  return absl::OkStatus();
-}
-
-double PullRope(const RopeSpec& spec, const RopeBody& from, const RopeBody& to, double step_s) {
+double PullRope(const wire::RopeSpec& spec, const RopeBody& from, const RopeBody& to,
+                double step_s) {
   const Vec3d along = to.at_m - from.at_m;
   const double length = Norm(along);
   const double stretch = length - spec.length_m;

@@ -112,6 +112,8 @@ class World {
   /// Null: none.
   const std::shared_ptr<const sea::Terrain>& terrain() const { return options_.terrain; }
   bool HasBody(std::uint32_t id) const { return bodies_.contains(id); }
+  /// Null: no such rope.
+  const wire::RopeSpec* FindRope(std::uint32_t id) const { return rigid_.FindRope(id); }
   /// Everything that the next step depends on. Forgets what Bullet remembers of contacts, so that
   /// this world goes on as one that is restored does: the hash of both is the same from here on.
   struct Saved;
@@ -148,6 +150,8 @@ class World {
   absl::StatusOr<std::uint32_t> Do(const wire::RemoveObstacle& command);
   absl::StatusOr<std::uint32_t> Do(const wire::AddRegion& command);
   absl::StatusOr<std::uint32_t> Do(const wire::RemoveRegion& command);
+  absl::StatusOr<std::uint32_t> Do(const wire::AddRope& command);
+  absl::StatusOr<std::uint32_t> Do(const wire::RemoveRope& command);
 
   void Done(WorldStage stage) const {
     if (options_.after_stage) options_.after_stage(stage);

@@ -60,6 +60,9 @@ absl::Status World::Begin(const wire::WorldSpec& spec) {
   for (const wire::RegionSpec& region : spec.regions) {
     ONESEA_RETURN_IF_ERROR(Do(wire::AddRegion{region}).status());
   }
+  for (const wire::RopeSpec& rope : spec.ropes) {
+    ONESEA_RETURN_IF_ERROR(rigid_.AddRope(rope).status());
+  }
   Publish(Change::kRegions);
   return absl::OkStatus();
 }
@@ -215,6 +218,16 @@ absl::StatusOr<std::uint32_t> World::Do(const wire::RemoveRegion& command) {
   }
   PlaceRegions().IgnoreError();
   return command.region_id;
+}
+
+absl::StatusOr<std::uint32_t> World::Do(const wire::AddRope& command) {
+  ONESEA_ASSIGN_OR_RETURN(const RopeId id, rigid_.AddRope(command.rope));
+  return static_cast<std::uint32_t>(id);
+}
+
+absl::StatusOr<std::uint32_t> World::Do(const wire::RemoveRope& command) {
+  ONESEA_RETURN_IF_ERROR(rigid_.RemoveRope(command.rope_id));
+  return command.rope_id;
 }
 
 absl::StatusOr<wire::BodyWrench> World::SetPose(const wire::BodyPose& pose) {

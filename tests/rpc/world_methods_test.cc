@@ -127,6 +127,28 @@ TEST_F(WorldMethodsTest, OnlyTheLeaseDrives) {
   EXPECT_TRUE(Drive(boat.body_id(), boat.lease(), "own").ok());
 }
 
+TEST_F(WorldMethodsTest, ARopeNeedsTheLeasesOfItsBodies) {
+  const v1::SpawnBodyResponse boat = SpawnBoat("spawn");
+  v1::AddRopeRequest request;
+  *request.mutable_command() = Header("tie");
+  request.mutable_rope()->mutable_from()->set_body_id(boat.body_id());
+  request.mutable_rope()->mutable_to()->mutable_point_m()->set_x(20);
+  request.mutable_rope()->set_length_m(15);
+  v1::AddRopeResponse rope;
+  EXPECT_EQ(Call(&Stub::AddRope, request, &rope).error_code(), grpc::StatusCode::PERMISSION_DENIED);
+  *request.mutable_command() = Header("tie it", boat.lease());
+  const grpc::Status tied = Call(&Stub::AddRope, request, &rope);
+  ASSERT_TRUE(tied.ok()) << tied.error_message();
+  v1::RemoveRopeRequest untie;
+  v1::RemoveRopeResponse gone;
+  *untie.mutable_command() = Header("untie");
+  untie.set_rope_id(rope.rope_id());
+  EXPECT_EQ(Call(&Stub::RemoveRope, untie, &gone).error_code(),
+            grpc::StatusCode::PERMISSION_DENIED);
+  *untie.mutable_command() = Header("untie it", boat.lease());
+  EXPECT_TRUE(Call(&Stub::RemoveRope, untie, &gone).ok());
+}
+
 TEST_F(WorldMethodsTest, NonsenseIsRefusedByName) {
   EXPECT_EQ(Drive(77, "", "a").error_code(), grpc::StatusCode::NOT_FOUND);
   v1::SpawnBodyRequest heavy = BoatRequest("b");

@@ -152,6 +152,11 @@ TEST(WorldCodec, CommandsKeepTheirFieldsAndHeader) {
   EXPECT_EQ(std::get<Explode>(bang->command).energy_j, 4.2e6);
   const auto region = Through<v1::AddRegionRequest>(AddRegion{FullRegion()});
   EXPECT_EQ(std::get<AddRegion>(region->command).region, FullRegion());
+  const RopeSpec tow{{3, {-3.0, 0.0, 0.5}}, {4, {2.0, 0.0, 0.25}}, 12.0, 2e4, 50.0};
+  const auto rope = Through<v1::AddRopeRequest>(AddRope{tow});
+  EXPECT_EQ(std::get<AddRope>(rope->command).rope, tow);
+  EXPECT_EQ(std::get<RemoveRope>(Through<v1::RemoveRopeRequest>(RemoveRope{9})->command).rope_id,
+            9U);
   const auto lease = Through<v1::TakeLeaseRequest>(TakeLease{4, "robot", 5.0});
   EXPECT_EQ(std::get<TakeLease>(lease->command).holder, "robot");
   const auto wall = Through<v1::SetObstacleRequest>(SetObstacle{2, {{0, 0}, {1, 0}, {0, 1}}});
@@ -190,6 +195,16 @@ TEST(WorldCodec, CommandsOutOfTheirLimitsAreRefused) {
   region = FullRegion();
   region.cell_m = nan;
   refused(Through<v1::AddRegionRequest>(AddRegion{region}), "region.cell_m: nan");
+  RopeSpec rope{{1, {}}, {0, {}}};
+  rope.length_m = nan;
+  refused(Through<v1::AddRopeRequest>(AddRope{rope}), "rope.length_m: nan");
+  rope = {{1, {}}, {1, {}}};
+  refused(Through<v1::AddRopeRequest>(AddRope{rope}), "rope.to.body_id: 1: both ends");
+  rope = {{}, {}};
+  refused(Through<v1::AddRopeRequest>(AddRope{rope}), "both ends are in the world");
+  rope = {{1, {}}, {0, {1e8, 0.0, 0.0}}};
+  refused(Through<v1::AddRopeRequest>(AddRope{rope}), "rope.to.point_m.x: 1");
+  refused(Through<v1::RemoveRopeRequest>(RemoveRope{}), "rope_id: is missing");
   SpawnBody spawn{FullBody(), FullKinematics()};
   spawn.start.turn.w = nan;
   refused(Through<v1::SpawnBodyRequest>(spawn), "start.turn squared: nan");

@@ -161,8 +161,8 @@ TEST(RigidBodies, MooringHolds) {
   water.current = {1.0, 0, 0};
   const auto model = Preset("raft");
   const BodyId raft = *world.Add(model, At(*model, 0, 0));
-  RopeSpec line;
-  line.from = {.body = raft, .point_m = {-1.5, 0, 0}};
+  wire::RopeSpec line;
+  line.from = {.body_id = static_cast<std::uint32_t>(raft), .point_m = {-1.5, 0, 0}};
   line.to = {.point_m = {-5, 0, 0}};
   line.length_m = 8;
   const RopeId rope = *world.AddRope(line);
@@ -187,9 +187,9 @@ TEST(RigidBodies, TowFollowsOnAnyRope) {
   BodyState driving = At(*boat, 0, 0);
   driving.command.throttle[0] = 0.6;
   const BodyId tug = *world.Add(boat, driving), tow = *world.Add(raft, At(*raft, -12, 1));
-  RopeSpec rope;
-  rope.from = {.body = tug, .point_m = {-5, 0, 1.5}};
-  rope.to = {.body = tow, .point_m = {1.5, 0, 0}};
+  wire::RopeSpec rope;
+  rope.from = {.body_id = static_cast<std::uint32_t>(tug), .point_m = {-5, 0, 1.5}};
+  rope.to = {.body_id = static_cast<std::uint32_t>(tow), .point_m = {1.5, 0, 0}};
   rope.length_m = 6;
   rope.stiffness_n_per_m = 1e9;
   rope.damping_n_s_per_m = 0;
@@ -238,9 +238,9 @@ TEST(RigidBodies, RefusesWhatIsNotANumberAndGoesOn) {
   EXPECT_FALSE(world.SetDrive(99, {}).ok());
   BodyState bad = At(*model, nan, 0);
   EXPECT_FALSE(world.Add(model, bad).ok());
-  RopeSpec rope;
+  wire::RopeSpec rope;
   EXPECT_FALSE(world.AddRope(rope).ok());
-  rope.from.body = id;
+  rope.from.body_id = static_cast<std::uint32_t>(id);
   rope.length_m = nan;
   EXPECT_FALSE(world.AddRope(rope).ok());
   RunFor(world, water, 1);
@@ -265,10 +265,10 @@ void Fill(RigidBodies& world) {
     state.command.rudder[0] = 0.1 * (n % 7) - 0.3;
     ASSERT_TRUE(world.Add(model, state).ok());
   }
-  RopeSpec rope;
-  rope.from.body = 1;
-  rope.to.body = 4;
-  rope.length_m = 3;
+  wire::RopeSpec rope;
+  rope.from.body_id = 1;
+  rope.to.body_id = 4;
+  rope.length_m = 4;
   ASSERT_TRUE(world.AddRope(rope).ok());
 }
 

@@ -155,6 +155,38 @@ TEST_F(WorldTest, RegionsFollowTheirBody) {
   EXPECT_GT(StateOf(boat).position_m.x, 10.0);
 }
 
+TEST_F(WorldTest, ABoatTowsAnother) {
+  const std::uint32_t boat = Spawn(Boat());
+  const std::uint32_t barge = Spawn(Box({6, 2, 1}, 3000.0), {-12, 0});
+  const auto rope =
+      world_.Apply(wire::AddRope{{{boat, {-3, 0, 0}}, {barge, {3, 0, 0}}, 8.0, 2e4, 2e3}});
+  ASSERT_TRUE(rope.ok()) << rope.status();
+  ASSERT_TRUE(world_.Apply(wire::DriveBody{boat, {1.0}, {0.0}}).ok());
+  Run(1800);
+  const Vec3d gap = StateOf(boat).position_m - StateOf(barge).position_m;
+  EXPECT_GT(StateOf(barge).position_m.x, 0.0);
+  EXPECT_NEAR(Norm(gap), 3 + 8 + 3, 0.5);  // taut: hull, rope, hull
+  EXPECT_NEAR(StateOf(barge).velocity_m_per_s.x, StateOf(boat).velocity_m_per_s.x, 0.1);
+  ASSERT_TRUE(world_.Apply(wire::RemoveRope{*rope}).ok());
+  Run(600);
+  EXPECT_GT(Norm(StateOf(boat).position_m - StateOf(barge).position_m), 16.0);
+}
+
+TEST_F(WorldTest, AMooredBodyStaysAndItsRopeGoesWithIt) {
+  wire::WorldSpec spec;
+  spec.bodies.push_back({Boat(), {}});
+  spec.ropes.push_back({{1, {3, 0, 0}}, {0, {8, 0, 0.5}}, 5.0});
+  ASSERT_TRUE(world_.Begin(spec).ok());
+  ASSERT_TRUE(world_.Apply(wire::DriveBody{1, {-1.0}, {0.0}}).ok());
+  Run(3600);
+  // Full astern: the bow stays on the rope, stretched by less than a metre.
+  const double bow_x = StateOf(1).position_m.x + 3.0;
+  EXPECT_GT(8.0 - bow_x, 4.9);
+  EXPECT_LT(8.0 - bow_x, 6.0);
+  ASSERT_TRUE(world_.Apply(wire::RemoveBody{1}).ok());
+  EXPECT_EQ(world_.FindRope(2), nullptr);
+}
+
 TEST_F(WorldTest, ErrorsNameWhatIsMissing) {
   const auto message = [this](const wire::WorldCommand& command) {
     return std::string(world_.Apply(command).status().message());
@@ -163,10 +195,14 @@ TEST_F(WorldTest, ErrorsNameWhatIsMissing) {
   EXPECT_THAT(message(wire::DriveBody{9, {}, {}}), HasSubstr("no body 9"));
   EXPECT_THAT(message(wire::RemoveRegion{4}), HasSubstr("no region 4"));
   EXPECT_THAT(message(wire::RemoveObstacle{5}), HasSubstr("no obstacle 5"));
+  EXPECT_THAT(message(wire::RemoveRope{6}), HasSubstr("no rope 6"));
+  EXPECT_THAT(message(wire::AddRope{{{9, {}}, {0, {}}}}), HasSubstr("no body 9"));
   EXPECT_THAT(message(wire::SetObstacle{5, {{0, 0}, {1, 0}, {0, 1}}}), HasSubstr("no obstacle 5"));
   EXPECT_THAT(message(wire::Explode{{0, 0, -1}, 1e6}), HasSubstr("no region"));
   const std::uint32_t box = Spawn(Box({1, 1, 1}, 500.0));
   EXPECT_THAT(message(wire::DriveBody{box, {1.0}, {}}), HasSubstr("has 0 thrusters"));
+  EXPECT_THAT(message(wire::AddRope{{{box, {}}, {0, {40, 0, 0}}, 10.0}}),
+              HasSubstr("rope.length_m: 10, but its ends are 40"));
   EXPECT_FALSE(PrepareBody(Box({1, 1, 1}, 0.0)).ok());
 }
 

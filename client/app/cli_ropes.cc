@@ -1,0 +1,100 @@
+// `onesea rope`: moorings and tows.
+
+#include <ostream>
+
+#include "absl/strings/match.h"
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_split.h"
+#include "client/app/cli_commands.h"
+#include "client/app/cli_server.h"
+#include "client/app/cli_world.h"
+#include "common/base/check.h"
+#include "common/base/limits.h"
+
+namespace onesea::app {
+namespace {
+
+absl::StatusOr<Vec3d> ParsePoint(const std::string& what, absl::string_view text) {
+  const std::vector<absl::string_view> parts = absl::StrSplit(text, ',');
+  if (parts.size() != 3) {
+    return absl::InvalidArgumentError(absl::StrCat(what, " is '", text, "', it must be X,Y,Z"));
+  }
+  constexpr double kMax = kQueryCoordinateMaxM;
+  Vec3d point;
+  ONESEA_ASSIGN_OR_RETURN(point.x, ParseNumber(what, parts[0], -kMax, kMax));
+  ONESEA_ASSIGN_OR_RETURN(point.y, ParseNumber(what, parts[1], -kMax, kMax));
+  ONESEA_ASSIGN_OR_RETURN(point.z, ParseNumber(what, parts[2], -kMax, kMax));
+  return point;
+}
+
+// "BODY", "BODY@X,Y,Z" or "X,Y,Z".
+absl::StatusOr<wire::RopeEnd> EndOption(const Arguments& arguments, const std::string& option) {
+  const std::string what = absl::StrCat("--", option);
+  const std::optional<std::string> text = arguments.Get(option);
+  if (!text) return UsageError(absl::StrCat(what, " is needed: BODY, BODY@X,Y,Z or X,Y,Z"));
+  wire::RopeEnd end;
+  const std::pair<std::string, std::string> parts = absl::StrSplit(*text, absl::MaxSplits('@', 1));
+  const bool in_world = absl::StrContains(parts.first, ',');
+  if (!in_world) {
+    ONESEA_ASSIGN_OR_RETURN(const std::int64_t id,
+                            InUsage(ParseInteger(what, parts.first, 1, 0xffffffff)));
+    end.body_id = static_cast<std::uint32_t>(id);
+  }
+  const std::string& point = in_world ? *text : parts.second;
+  if (!point.empty()) {
+    ONESEA_ASSIGN_OR_RETURN(end.point_m, InUsage(ParsePoint(what, point)));
+  }
+  return end;
+}
+
+absl::StatusOr<wire::WorldCommand> CommandOf(const Arguments& arguments) {
+  if (const auto rope = arguments.Get("remove")) {
+    ONESEA_ASSIGN_OR_RETURN(const std::int64_t id,
+                            InUsage(ParseInteger("--remove", *rope, 1, 0xffffffff)));
+    return wire::RemoveRope{static_cast<std::uint32_t>(id)};
+  }
+  wire::RopeSpec rope;
+  ONESEA_ASSIGN_OR_RETURN(rope.from, EndOption(arguments, "from"));
+  ONESEA_ASSIGN_OR_RETURN(rope.to, EndOption(arguments, "to"));
+  ONESEA_ASSIGN_OR_RETURN(rope.length_m,
+                          NumberOr(arguments, "length", rope.length_m, 1e-3, kRopeLengthMaxM));
+  ONESEA_ASSIGN_OR_RETURN(
+      rope.stiffness_n_per_m,
+      NumberOr(arguments, "stiffness", rope.stiffness_n_per_m, 1e-6, kRopeStiffnessMaxNPerM));
+  return wire::AddRope{rope};
+}
+
+absl::Status RunRope(const CliContext& context, const Arguments& arguments) {
+  ONESEA_ASSIGN_OR_RETURN(const wire::WorldCommand command, CommandOf(arguments));
+  ONESEA_ASSIGN_OR_RETURN(const ChosenSession chosen, ChooseSession(context));
+  ONESEA_ASSIGN_OR_RETURN(const client::CommandAnswer answer,
+                          chosen.server->Command(HeaderFor(chosen.info, arguments), command));
+  const auto* gone = std::get_if<wire::RemoveRope>(&command);
+  PrintDone(context, chosen.info, answer,
+            gone == nullptr ? absl::StrCat("rope ", answer.id, " holds")
+                            : absl::StrCat("rope ", gone->rope_id, " is gone"));
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+CliCommand RopeCommand() {
+  return {.name = "rope",
+          .operands = "",
+          .summary = "moors a body, lets it tow another, or takes such a rope away",
+          .details =
+              "An end is BODY (its origin), BODY@X,Y,Z (a point of it, body frame: x forward,\n"
+              "y to port, z up) or X,Y,Z (a place in the world). A rope only pulls.",
+          .options = {{"from", "END", "one end"},
+                      {"to", "END", "the other"},
+                      {"length", "M", "slack below it; default 10"},
+                      {"stiffness", "N/M", "default 10000"},
+                      {"remove", "ROPE", "takes the rope away instead"},
+                      {"lease", "TEXT", "of the bodies, if somebody holds them"}},
+          .examples = {"onesea rope --from 1@3,0,0.5 --to 20,0,1 --length 8",
+                       "onesea rope --from 1@-3,0,0.3 --to 2@3,0,0.3 --length 12",
+                       "onesea rope --remove 7"},
+          .run = RunRope};
+}
+
+}  // namespace onesea::app
