@@ -20,6 +20,7 @@ CliCommand SpeedCommand();
 CliCommand HashCommand();
 CliCommand SpectrumCommand();
 CliCommand SpawnCommand();
+CliCommand PresetsCommand();
 CliCommand BodiesCommand();
 CliCommand DriveCommand();
 CliCommand ExplodeCommand();

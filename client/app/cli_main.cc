@@ -10,7 +10,7 @@ int main(int argc, char** argv) {
   const std::vector<CliCommand> commands = {
       SessionsCommand(), CreateCommand(),   DeleteCommand(), QueryCommand(),  WatchCommand(),
       WeatherCommand(),  HoldCommand(),     ResumeCommand(), StepCommand(),   SpeedCommand(),
-      HashCommand(),     SpectrumCommand(), SpawnCommand(),  BodiesCommand(), DriveCommand(),
+      HashCommand(),     SpectrumCommand(), SpawnCommand(), PresetsCommand(),  BodiesCommand(), DriveCommand(),
       ExplodeCommand(),  RemoveCommand(),   RopeCommand()};
   // An error is one line; gRPC would add its own.
   setenv("GRPC_VERBOSITY", "NONE", /*overwrite=*/0);

@@ -12,7 +12,6 @@
 #include "client/app/json_writer.h"
 #include "common/base/check.h"
 #include "common/base/limits.h"
-#include "common/wire/body_kinds.h"
 
 namespace onesea::app {
 namespace {
@@ -33,7 +32,7 @@ absl::StatusOr<Vec2d> PlaceOption(const Arguments& arguments) {
 
 absl::Status RunSpawn(const CliContext& context, const Arguments& arguments) {
   wire::SpawnBody spawn;
-  ONESEA_ASSIGN_OR_RETURN(spawn.body, InUsage(wire::BodyKind(arguments.operands()[0])));
+  spawn.body.preset = arguments.operands()[0];
   ONESEA_ASSIGN_OR_RETURN(const Vec2d place, PlaceOption(arguments));
   ONESEA_ASSIGN_OR_RETURN(const double heading_deg,
                           NumberOr(arguments, "heading", 90.0, -360.0, 360.0));
@@ -60,6 +59,25 @@ absl::Status RunSpawn(const CliContext& context, const Arguments& arguments) {
   PrintDone(context, chosen.info, answer,
             arguments.Has("keep") ? absl::StrCat("body ", answer.id, ", lease ", answer.lease, ",")
                                   : absl::StrCat("body ", answer.id));
+  return absl::OkStatus();
+}
+
+absl::Status RunPresets(const CliContext& context, const Arguments&) {
+  ONESEA_ASSIGN_OR_RETURN(const auto server, ConnectTo(context));
+  ONESEA_ASSIGN_OR_RETURN(const std::vector<client::ListedPreset> presets, server->ListPresets());
+  if (!context.json) {
+    for (const client::ListedPreset& preset : presets) {
+      context.out << absl::StreamFormat("%-10s  %s\n", preset.name, preset.summary);
+    }
+    return absl::OkStatus();
+  }
+  JsonWriter json;
+  json.BeginObject().Key("presets").BeginArray();
+  for (const client::ListedPreset& preset : presets) {
+    json.BeginObject().Key("name").Value(preset.name).Key("summary").Value(preset.summary);
+    json.EndObject();
+  }
+  context.out << json.EndArray().EndObject().text() << '\n';
   return absl::OkStatus();
 }
 
@@ -132,19 +150,30 @@ absl::Status RunRemove(const CliContext& context, const Arguments& arguments) {
 
 CliCommand SpawnCommand() {
   return {.name = "spawn",
-          .operands = "KIND",
+          .operands = "PRESET",
           .operand_count = 1,
-          .summary = "puts a body afloat: boat, buoy, crate or raft",
+          .summary = "puts a ready-made body afloat: a boat, a buoy, a crate, ...",
           .details =
+              "onesea presets lists the bodies that the server has.\n"
               "A region of the interaction layer follows the body, so that it leaves a wake.\n"
               "Anybody may drive it afterwards, unless --keep.",
           .options = {{"at", "X,Y", "where, metres east and north"},
                       {"heading", "DEG", "of its bow, clockwise from north; default 90"},
-                      {"name", "TEXT", "default the kind"},
+                      {"name", "TEXT", "default the preset's"},
                       {"no-wake", "", "no region follows it"},
                       {"keep", "", "keep and print the lease: only who shows it may drive"}},
           .examples = {"onesea spawn boat --at 0,0", "onesea spawn crate --at 12,3 --no-wake"},
           .run = RunSpawn};
+}
+
+CliCommand PresetsCommand() {
+  return {.name = "presets",
+          .operands = "",
+          .summary = "lists the bodies that spawn knows",
+          .details = "",
+          .options = {},
+          .examples = {"onesea presets", "onesea presets --json"},
+          .run = RunPresets};
 }
 
 CliCommand BodiesCommand() {

@@ -58,6 +58,11 @@ struct BodyList {
   std::vector<ListedBody> bodies;
 };
 
+struct ListedPreset {
+  std::string name;     ///< for BodyDescription::preset
+  std::string summary;  ///< one line for people
+};
+
 struct StateHashes {
   Tick tick = 0;
   std::uint64_t state_hash = 0;
@@ -111,6 +116,8 @@ class RemoteServer {
   absl::StatusOr<BodyList> ListBodies(const std::string& session);
   /// The file of a hull, by BodyShape::mesh_hash; at most kHullFileBytesMax. NotFound.
   absl::StatusOr<std::string> GetMesh(const std::string& session, std::uint64_t hash);
+  /// The bodies that the server knows by name.
+  absl::StatusOr<std::vector<ListedPreset>> ListPresets();
 
   absl::StatusOr<StateHashes> GetStateHash(const std::string& session);
   /// The server's monotonic clock [ns].

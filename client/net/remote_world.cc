@@ -108,4 +108,15 @@ absl::StatusOr<BodyList> RemoteServer::ListBodies(const std::string& session) {
   return list;
 }
 
+absl::StatusOr<std::vector<ListedPreset>> RemoteServer::ListPresets() {
+  v1::ListPresetsResponse response;
+  ONESEA_RETURN_IF_ERROR(
+      impl_->Call(&v1::OneSea::Stub::ListPresets, v1::ListPresetsRequest(), &response));
+  std::vector<ListedPreset> presets;
+  for (const auto& preset : response.presets()) {
+    presets.push_back({preset.name(), preset.summary()});
+  }
+  return presets;
+}
+
 }  // namespace onesea::client

@@ -12,6 +12,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_split.h"
 #include "absl/strings/strip.h"
+#include "common/base/check.h"
 #include "common/base/limits.h"
 
 #include "tiny_obj_loader.h"
@@ -158,6 +159,24 @@ absl::StatusOr<TriangleMesh> ReadObj(absl::string_view bytes) {
   }
   Weld(mesh);
   return mesh;
+}
+
+std::string WriteStl(const TriangleMesh& mesh) {
+  ONESEA_CHECK(mesh.triangles.size() <= kHullTrianglesMax) << mesh.triangles.size();
+  std::string out(kStlHeaderBytes, '\0');
+  const auto put = [&](std::uint32_t word) {
+    for (int n = 0; n < 4; ++n) out.push_back(static_cast<char>(word >> (8 * n)));
+  };
+  const auto put_vector = [&](Vec3d v) {
+    for (const double x : {v.x, v.y, v.z}) put(std::bit_cast<std::uint32_t>(static_cast<float>(x)));
+  };
+  put(static_cast<std::uint32_t>(mesh.triangles.size()));
+  for (const auto& [a, b, c] : mesh.triangles) {
+    put_vector({});  // a normal of zeros: readers make it from the corners
+    for (const std::uint32_t corner : {a, b, c}) put_vector(mesh.vertices[corner]);
+    out.append(2, '\0');
+  }
+  return out;
 }
 
 absl::StatusOr<TriangleMesh> ReadMeshFile(absl::string_view bytes) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "absl/status/statusor.h"
 #include "absl/strings/string_view.h"
 #include "common/base/triangle_mesh.h"
@@ -16,5 +18,8 @@ absl::StatusOr<TriangleMesh> ReadObj(absl::string_view bytes);
 
 /// By content: OBJ unless it looks like STL.
 absl::StatusOr<TriangleMesh> ReadMeshFile(absl::string_view bytes);
+
+/// A binary STL file of the mesh: coordinates become floats. Pre: at most kHullTrianglesMax.
+std::string WriteStl(const TriangleMesh& mesh);
 
 }  // namespace onesea::ingest

@@ -38,10 +38,13 @@ absl::Status CheckShape(const std::string& prefix, const BodyShape& shape) {
 }
 
 absl::Status CheckForces(const std::string& prefix, const BodyDescription& body) {
-  ONESEA_RETURN_IF_ERROR(ValidateDrag(prefix + "drag.", body.drag));
-  ONESEA_RETURN_IF_ERROR(ValidateWindage(prefix + "windage.", body.windage));
-  ONESEA_RETURN_IF_ERROR(CheckReal(prefix, "contact_friction", body.contact_friction, 0.0, 2.0));
-  return CheckReal(prefix, "contact_restitution", body.contact_restitution, 0.0, 1.0);
+  if (body.drag) ONESEA_RETURN_IF_ERROR(ValidateDrag(prefix + "drag.", *body.drag));
+  if (body.windage) ONESEA_RETURN_IF_ERROR(ValidateWindage(prefix + "windage.", *body.windage));
+  if (body.contact_friction) {
+    ONESEA_RETURN_IF_ERROR(CheckReal(prefix, "contact_friction", *body.contact_friction, 0.0, 2.0));
+  }
+  if (!body.contact_restitution) return absl::OkStatus();
+  return CheckReal(prefix, "contact_restitution", *body.contact_restitution, 0.0, 1.0);
 }
 
 absl::Status CheckMatrix(const std::string& prefix, const char* field,
@@ -54,8 +57,10 @@ absl::Status CheckMatrix(const std::string& prefix, const char* field,
 }
 
 absl::Status CheckMass(const std::string& prefix, const BodyDescription& body) {
-  ONESEA_RETURN_IF_ERROR(
-      CheckReal(prefix, "mass_kg", body.mass_kg, kBodyMassMinKg, kBodyMassMaxKg));
+  if (body.mass_kg) {
+    ONESEA_RETURN_IF_ERROR(
+        CheckReal(prefix, "mass_kg", *body.mass_kg, kBodyMassMinKg, kBodyMassMaxKg));
+  }
   if (body.centre_of_mass_m) {
     ONESEA_RETURN_IF_ERROR(CheckOffset(prefix, "centre_of_mass_m", *body.centre_of_mass_m));
   }
@@ -81,11 +86,51 @@ std::uint64_t MeshHash(const std::string& mesh) {
   return hash.value();
 }
 
+BodyDescription Overlaid(BodyDescription base, const BodyDescription& given) {
+  const auto take = [](auto& to, const auto& from) {
+    if constexpr (requires { from.has_value(); }) {
+      if (from.has_value()) to = from;
+    } else {
+      if (!from.empty()) to = from;
+    }
+  };
+  base.preset.clear();
+  take(base.name, given.name);
+  take(base.owner, given.owner);
+  take(base.colour_rgb, given.colour_rgb);
+  take(base.control, given.control);
+  take(base.radiation, given.radiation);
+  take(base.shape, given.shape);
+  take(base.mass_kg, given.mass_kg);
+  take(base.centre_of_mass_m, given.centre_of_mass_m);
+  take(base.inertia_kg_m2, given.inertia_kg_m2);
+  take(base.added_mass, given.added_mass);
+  take(base.radiation_damping, given.radiation_damping);
+  take(base.viscous_damping, given.viscous_damping);
+  take(base.quadratic_damping, given.quadratic_damping);
+  take(base.drag, given.drag);
+  take(base.windage, given.windage);
+  take(base.thrusters, given.thrusters);
+  take(base.rudders, given.rudders);
+  take(base.contact_friction, given.contact_friction);
+  take(base.contact_restitution, given.contact_restitution);
+  return base;
+}
+
 absl::Status ValidateBodyDescription(const std::string& prefix, const BodyDescription& body) {
+  ONESEA_RETURN_IF_ERROR(CheckText(prefix, "preset", body.preset, kBodyNameLengthMax));
+  if (body.preset.empty() && !body.shape) {
+    return absl::InvalidArgumentError(absl::StrCat(
+        prefix, "shape: is missing; box, sphere, cylinder, capsule, mesh, or name a preset"));
+  }
+  if (body.preset.empty() && !body.mass_kg) {
+    return absl::InvalidArgumentError(absl::StrCat(prefix, "mass_kg: is missing"));
+  }
   ONESEA_RETURN_IF_ERROR(CheckText(prefix, "name", body.name, kBodyNameLengthMax));
   ONESEA_RETURN_IF_ERROR(CheckText(prefix, "owner", body.owner, kBodyNameLengthMax));
-  ONESEA_RETURN_IF_ERROR(CheckInteger(prefix, "colour_rgb", body.colour_rgb, 0, kColourMax));
-  ONESEA_RETURN_IF_ERROR(CheckShape(prefix + "shape.", body.shape));
+  const std::uint32_t colour_rgb = body.colour_rgb.value_or(kBodyColourDefault);
+  ONESEA_RETURN_IF_ERROR(CheckInteger(prefix, "colour_rgb", colour_rgb, 0, kColourMax));
+  if (body.shape) ONESEA_RETURN_IF_ERROR(CheckShape(prefix + "shape.", *body.shape));
   ONESEA_RETURN_IF_ERROR(CheckMass(prefix, body));
   ONESEA_RETURN_IF_ERROR(CheckForces(prefix, body));
   ONESEA_RETURN_IF_ERROR(CheckSize(prefix, "thrusters", body.thrusters.size(), kThrustersMax));

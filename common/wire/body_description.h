@@ -46,38 +46,47 @@ enum class Radiation : std::uint8_t {
 /// (6 x 6) row-major: surge, sway, heave, roll, pitch, yaw about the centre of mass; SI units.
 using Matrix6 = std::array<double, 36>;
 
+inline constexpr std::uint32_t kBodyColourDefault = 0xC0C0C0;
+
+/// What is none or empty is the preset's; without a preset, what the comment says.
 struct BodyDescription {
-  std::string name;   ///< at most 64 bytes
-  std::string owner;  ///< at most 64 bytes
-  std::uint32_t colour_rgb = 0xC0C0C0;
-  BodyControl control = BodyControl::kIntegrated;
-  Radiation radiation = Radiation::kCoefficients;
-  BodyShape shape;
-  double mass_kg = 1.0;                                ///< [1e-3, 1e9]
+  std::string preset;  ///< a ready-made body of the server's; at most 64 bytes; empty: none
+  std::string name;    ///< at most 64 bytes
+  std::string owner;   ///< at most 64 bytes
+  std::optional<std::uint32_t> colour_rgb;             ///< none: kBodyColourDefault
+  std::optional<BodyControl> control;                  ///< none: kIntegrated
+  std::optional<Radiation> radiation;                  ///< none: kCoefficients
+  std::optional<BodyShape> shape;                      ///< needed
+  std::optional<double> mass_kg;                       ///< [1e-3, 1e9]; needed
   std::optional<Vec3d> centre_of_mass_m;               ///< none: of the uniform solid
   std::optional<std::array<double, 9>> inertia_kg_m2;  ///< row-major; none: of the uniform solid
   std::optional<Matrix6> added_mass;                   ///< none: estimated from the shape
   std::optional<Matrix6> radiation_damping;            ///< none: estimated
   std::optional<Matrix6> viscous_damping;              ///< none: estimated
   std::optional<Matrix6> quadratic_damping;            ///< none: nothing
-  Drag drag;
-  Windage windage;
-  std::vector<Thruster> thrusters;   ///< at most kThrustersMax
-  std::vector<Rudder> rudders;       ///< at most kRuddersMax
-  double contact_friction = 0.4;     ///< [0, 2]
-  double contact_restitution = 0.1;  ///< [0, 1]
+  std::optional<Drag> drag;                            ///< none: Drag{}
+  std::optional<Windage> windage;                      ///< none: Windage{}
+  std::vector<Thruster> thrusters;                     ///< at most kThrustersMax
+  std::vector<Rudder> rudders;                         ///< at most kRuddersMax
+  std::optional<double> contact_friction;              ///< [0, 2]; none: 0.4
+  std::optional<double> contact_restitution;           ///< [0, 1]; none: 0.1
   friend bool operator==(const BodyDescription&, const BodyDescription&) = default;
 };
 
-/// Ranges of every number and text; whether the hull is closed and can float is the server's to
-/// say. InvalidArgument naming field, value and limit, each field after `prefix`.
+/// `base` with everything that `given` says in place of its own, field by field; the preset of
+/// neither.
+BodyDescription Overlaid(BodyDescription base, const BodyDescription& given);
+
+/// Ranges of every number and text, and that nothing needed is missing; whether there is such a
+/// preset, and whether the hull is closed and can float, is the server's to say. InvalidArgument
+/// naming field, value and limit, each field after `prefix`.
 absl::Status ValidateBodyDescription(const std::string& prefix, const BodyDescription& body);
 
 /// What a viewer needs to draw and name a body.
 struct BodyInfo {
   std::uint32_t id = 0;
   std::string name, owner;
-  std::uint32_t colour_rgb = 0xC0C0C0;
+  std::uint32_t colour_rgb = kBodyColourDefault;
   BodyShape shape;         ///< without the mesh's bytes
   Vec3d centre_of_mass_m;  ///< body frame: what BodyState::position_m is the place of
   double mass_kg = 0.0;

@@ -135,35 +135,46 @@ Rudder ReadRudder(const v1::Rudder& proto) {
 }
 
 void SetForces(const BodyDescription& body, v1::BodyDescription* out) {
-  out->mutable_drag()->set_friction(body.drag.friction);
-  out->mutable_drag()->set_pressure(body.drag.pressure);
-  out->mutable_drag()->set_suction(body.drag.suction);
-  out->mutable_drag()->set_planing(body.drag.planing);
-  v1::Windage* windage = out->mutable_windage();
-  windage->set_frontal_area_m2(body.windage.frontal_area_m2);
-  windage->set_lateral_area_m2(body.windage.lateral_area_m2);
-  windage->set_frontal_coefficient(body.windage.frontal_coefficient);
-  windage->set_lateral_coefficient(body.windage.lateral_coefficient);
-  ToProto(body.windage.centre_m, windage->mutable_centre_m());
-  out->set_contact_friction(body.contact_friction);
-  out->set_contact_restitution(body.contact_restitution);
+  if (body.drag) {
+    out->mutable_drag()->set_friction(body.drag->friction);
+    out->mutable_drag()->set_pressure(body.drag->pressure);
+    out->mutable_drag()->set_suction(body.drag->suction);
+    out->mutable_drag()->set_planing(body.drag->planing);
+  }
+  if (body.windage) {
+    v1::Windage* windage = out->mutable_windage();
+    windage->set_frontal_area_m2(body.windage->frontal_area_m2);
+    windage->set_lateral_area_m2(body.windage->lateral_area_m2);
+    windage->set_frontal_coefficient(body.windage->frontal_coefficient);
+    windage->set_lateral_coefficient(body.windage->lateral_coefficient);
+    ToProto(body.windage->centre_m, windage->mutable_centre_m());
+  }
+  if (body.contact_friction) out->set_contact_friction(*body.contact_friction);
+  if (body.contact_restitution) out->set_contact_restitution(*body.contact_restitution);
+}
+
+Drag ReadDrag(const v1::Drag& proto) {
+  Drag drag;
+  if (proto.has_friction()) drag.friction = proto.friction();
+  if (proto.has_pressure()) drag.pressure = proto.pressure();
+  if (proto.has_suction()) drag.suction = proto.suction();
+  drag.planing = proto.planing();
+  return drag;
+}
+
+Windage ReadWindage(const v1::Windage& proto) {
+  Windage windage;
+  windage.frontal_area_m2 = proto.frontal_area_m2();
+  windage.lateral_area_m2 = proto.lateral_area_m2();
+  if (proto.has_frontal_coefficient()) windage.frontal_coefficient = proto.frontal_coefficient();
+  if (proto.has_lateral_coefficient()) windage.lateral_coefficient = proto.lateral_coefficient();
+  windage.centre_m = FromProto(proto.centre_m());
+  return windage;
 }
 
 void ReadForces(const v1::BodyDescription& proto, BodyDescription& body) {
-  if (proto.drag().has_friction()) body.drag.friction = proto.drag().friction();
-  if (proto.drag().has_pressure()) body.drag.pressure = proto.drag().pressure();
-  if (proto.drag().has_suction()) body.drag.suction = proto.drag().suction();
-  body.drag.planing = proto.drag().planing();
-  const v1::Windage& windage = proto.windage();
-  body.windage.frontal_area_m2 = windage.frontal_area_m2();
-  body.windage.lateral_area_m2 = windage.lateral_area_m2();
-  if (windage.has_frontal_coefficient()) {
-    body.windage.frontal_coefficient = windage.frontal_coefficient();
-  }
-  if (windage.has_lateral_coefficient()) {
-    body.windage.lateral_coefficient = windage.lateral_coefficient();
-  }
-  body.windage.centre_m = FromProto(windage.centre_m());
+  if (proto.has_drag()) body.drag = ReadDrag(proto.drag());
+  if (proto.has_windage()) body.windage = ReadWindage(proto.windage());
   if (proto.has_contact_friction()) body.contact_friction = proto.contact_friction();
   if (proto.has_contact_restitution()) body.contact_restitution = proto.contact_restitution();
 }
@@ -219,13 +230,16 @@ Kinematics FromProto(const v1::Kinematics& proto) {
 }
 
 void ToProto(const BodyDescription& body, v1::BodyDescription* out) {
+  out->set_preset(body.preset);
   out->set_name(body.name);
   out->set_owner(body.owner);
-  out->set_colour_rgb(body.colour_rgb);
-  out->set_control(static_cast<v1::BodyDescription::Control>(body.control));
-  out->set_radiation(static_cast<v1::BodyDescription::Radiation>(body.radiation));
-  SetShape(body.shape, true, out->mutable_shape());
-  out->set_mass_kg(body.mass_kg);
+  if (body.colour_rgb) out->set_colour_rgb(*body.colour_rgb);
+  if (body.control) out->set_control(static_cast<v1::BodyDescription::Control>(*body.control));
+  if (body.radiation) {
+    out->set_radiation(static_cast<v1::BodyDescription::Radiation>(*body.radiation));
+  }
+  if (body.shape) SetShape(*body.shape, true, out->mutable_shape());
+  if (body.mass_kg) out->set_mass_kg(*body.mass_kg);
   if (body.centre_of_mass_m) ToProto(*body.centre_of_mass_m, out->mutable_centre_of_mass_m());
   SetNumbers(body.inertia_kg_m2, out->mutable_inertia_kg_m2());
   SetNumbers(body.added_mass, out->mutable_added_mass());
@@ -240,6 +254,7 @@ void ToProto(const BodyDescription& body, v1::BodyDescription* out) {
 absl::StatusOr<BodyDescription> FromProto(const v1::BodyDescription& proto,
                                           const std::string& folder) {
   BodyDescription body;
+  body.preset = proto.preset();
   body.name = proto.name();
   body.owner = proto.owner();
   if (proto.has_colour_rgb()) body.colour_rgb = proto.colour_rgb();
@@ -249,8 +264,11 @@ absl::StatusOr<BodyDescription> FromProto(const v1::BodyDescription& proto,
   }
   if (proto.control() != 0) body.control = static_cast<BodyControl>(proto.control());
   if (proto.radiation() != 0) body.radiation = static_cast<Radiation>(proto.radiation());
-  ONESEA_ASSIGN_OR_RETURN(body.shape, ReadShape(proto.shape(), folder));
-  body.mass_kg = proto.mass_kg();
+  if (proto.has_shape()) {
+    ONESEA_ASSIGN_OR_RETURN(body.shape, ReadShape(proto.shape(), folder));
+  }
+  // Not `!= 0`: NaN must go on to the validation, which refuses it.
+  if (!(proto.mass_kg() == 0.0)) body.mass_kg = proto.mass_kg();
   if (proto.has_centre_of_mass_m()) body.centre_of_mass_m = FromProto(proto.centre_of_mass_m());
   ONESEA_RETURN_IF_ERROR(ReadNumbers("inertia_kg_m2", proto.inertia_kg_m2(), body.inertia_kg_m2));
   ONESEA_RETURN_IF_ERROR(ReadNumbers("added_mass", proto.added_mass(), body.added_mass));

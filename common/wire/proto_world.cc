@@ -37,6 +37,8 @@ Instrument ReadInstrument(const v1::Instrument& proto) {
                            FromProto(proto.pressure_gauge().position_m())};
     case v1::Instrument::kImu:
       return Imu{proto.imu().body_id(), FromProto(proto.imu().position_m())};
+    case v1::Instrument::kMotion:
+      return Motion{proto.motion().body_id()};
     case v1::Instrument::kWaveGauge:
     case v1::Instrument::KIND_NOT_SET:
       break;
@@ -51,10 +53,11 @@ void SetInstrument(const Instrument& instrument, v1::Instrument* out) {
   } else if (const auto* pressure = std::get_if<PressureGauge>(&instrument)) {
     out->mutable_pressure_gauge()->set_body_id(pressure->body_id);
     ToProto(pressure->position_m, out->mutable_pressure_gauge()->mutable_position_m());
+  } else if (const auto* imu = std::get_if<Imu>(&instrument)) {
+    out->mutable_imu()->set_body_id(imu->body_id);
+    ToProto(imu->position_m, out->mutable_imu()->mutable_position_m());
   } else {
-    const auto& imu = std::get<Imu>(instrument);
-    out->mutable_imu()->set_body_id(imu.body_id);
-    ToProto(imu.position_m, out->mutable_imu()->mutable_position_m());
+    out->mutable_motion()->set_body_id(std::get<Motion>(instrument).body_id);
   }
 }
 
@@ -208,7 +211,7 @@ absl::StatusOr<InstrumentRequest> FromProto(const v1::StreamInstrumentsRequest& 
   for (const v1::Instrument& instrument : proto.instruments()) {
     if (instrument.kind_case() == v1::Instrument::KIND_NOT_SET) {
       return absl::InvalidArgumentError(
-          "instruments: one is none of wave_gauge, pressure_gauge, imu");
+          "instruments: one is none of wave_gauge, pressure_gauge, imu, motion");
     }
     request.instruments.push_back(ReadInstrument(instrument));
   }

@@ -59,7 +59,8 @@ absl::Status CheckPolygon(const std::vector<Vec2d>& corners_m) {
 
 absl::Status Check(const SpawnBody& command) {
   ONESEA_RETURN_IF_ERROR(ValidateBodyDescription("body.", command.body));
-  if (command.body.shape.kind == ShapeKind::kMesh && command.body.shape.mesh.empty()) {
+  const std::optional<BodyShape>& shape = command.body.shape;
+  if (shape && shape->kind == ShapeKind::kMesh && shape->mesh.empty()) {
     return absl::InvalidArgumentError("body.shape.mesh.file: is empty");
   }
   return ValidateKinematics("start.", command.start);
@@ -117,6 +118,7 @@ absl::Status CheckHeader(const CommandHeader& header) {
 }  // namespace
 
 int ValueCount(const Instrument& instrument) {
+  if (std::holds_alternative<Motion>(instrument)) return 13;
   return std::holds_alternative<Imu>(instrument) ? 10 : 1;
 }
 
@@ -149,6 +151,8 @@ absl::Status ValidateInstruments(const InstrumentRequest& request) {
     if (const auto* gauge = std::get_if<WaveGauge>(&instrument)) {
       const Vec3d place{gauge->place_m.x, gauge->place_m.y, 0.0};
       ONESEA_RETURN_IF_ERROR(CheckVector(prefix, "place_m", place, kQueryCoordinateMaxM));
+    } else if (const auto* motion = std::get_if<Motion>(&instrument)) {
+      ONESEA_RETURN_IF_ERROR(CheckId(prefix, "body_id", motion->body_id));
     } else if (const auto* imu = std::get_if<Imu>(&instrument)) {
       ONESEA_RETURN_IF_ERROR(CheckId(prefix, "body_id", imu->body_id));
       ONESEA_RETURN_IF_ERROR(CheckVector(prefix, "position_m", imu->position_m, kHullSizeMaxM));

@@ -87,6 +87,7 @@ struct BodyPose {
 struct BodyWrench {
   std::uint32_t body_id = 0;
   Vec3d force_n, torque_n_m;
+  Matrix6 added_mass{};  ///< body axes; not in the force: for the body's own inertia
 };
 struct PoseBatch {
   std::string session;
@@ -106,8 +107,11 @@ struct Imu {
   std::uint32_t body_id = 0;
   Vec3d position_m;  ///< body frame
 };
-using Instrument = std::variant<WaveGauge, PressureGauge, Imu>;
-/// How many numbers a reading of it has: 1, 1, 10.
+struct Motion {
+  std::uint32_t body_id = 0;
+};
+using Instrument = std::variant<WaveGauge, PressureGauge, Imu, Motion>;
+/// How many numbers a reading of it has: 1, 1, 10, 13.
 int ValueCount(const Instrument& instrument);
 
 struct InstrumentRequest {

@@ -25,7 +25,8 @@ using WithBodyMethods =
         v1::OneSea::WithCallbackMethod_DriveBody<v1::OneSea::WithCallbackMethod_ApplyImpulse<
             v1::OneSea::WithCallbackMethod_TakeLease<v1::OneSea::WithCallbackMethod_ReleaseLease<
                 v1::OneSea::WithCallbackMethod_ListBodies<v1::OneSea::WithCallbackMethod_GetMesh<
-                    v1::OneSea::WithCallbackMethod_StreamBodyPoses<Base>>>>>>>>>;
+                    v1::OneSea::WithCallbackMethod_ListPresets<
+                        v1::OneSea::WithCallbackMethod_StreamBodyPoses<Base>>>>>>>>>>;
 
 template <class Base>
 using WithWaterMethods = v1::OneSea::WithCallbackMethod_Explode<

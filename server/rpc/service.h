@@ -97,6 +97,9 @@ class OneSeaService final : public OneSeaMethods {
   grpc::ServerUnaryReactor* ListBodies(grpc::CallbackServerContext* context,
                                        const v1::ListBodiesRequest* request,
                                        v1::ListBodiesResponse* response) override;
+  grpc::ServerUnaryReactor* ListPresets(grpc::CallbackServerContext* context,
+                                        const v1::ListPresetsRequest* request,
+                                        v1::ListPresetsResponse* response) override;
   grpc::ServerUnaryReactor* GetMesh(grpc::CallbackServerContext* context,
                                     const v1::GetMeshRequest* request,
                                     v1::GetMeshResponse* response) override;

@@ -4,12 +4,14 @@
 
 #include "absl/strings/str_cat.h"
 #include "common/base/check.h"
+#include "common/wire/bounds.h"
 #include "common/wire/proto_body.h"
 #include "common/wire/proto_world.h"
 #include "server/rpc/answer.h"
 #include "server/rpc/service.h"
 #include "server/rpc/status_map.h"
 #include "server/rpc/terrain_writer.h"
+#include "server/world/body_presets.h"
 
 namespace onesea::server {
 namespace {
@@ -172,6 +174,23 @@ grpc::ServerUnaryReactor* OneSeaService::ListBodies(grpc::CallbackServerContext*
                                    state.spin_rad_per_s},
                   out->mutable_state());
     out->set_driver((*session)->HolderOf(state.id));
+  }
+  return Answer(context, absl::OkStatus());
+}
+
+grpc::ServerUnaryReactor* OneSeaService::ListPresets(grpc::CallbackServerContext* context,
+                                                     const v1::ListPresetsRequest* /*request*/,
+                                                     v1::ListPresetsResponse* response) {
+  for (const world::BodyPresetEntry& entry : world::BodyPresets()) {
+    const absl::StatusOr<wire::BodyDescription> body = world::BodyPreset(wire::Text(entry.name));
+    ONESEA_CHECK(body.ok()) << body.status().ToString();
+    v1::ListPresetsResponse::Preset* out = response->add_presets();
+    out->set_name(entry.name.data(), entry.name.size());
+    out->set_summary(entry.summary.data(), entry.summary.size());
+    wire::ToProto(*body, out->mutable_body());
+    if (out->body().shape().has_mesh()) {
+      out->mutable_body()->mutable_shape()->mutable_mesh()->clear_file();
+    }
   }
   return Answer(context, absl::OkStatus());
 }

@@ -35,28 +35,31 @@ absl::StatusOr<BodyShape> ShapeOf(const wire::BodyShape& shape) {
 }  // namespace
 
 absl::StatusOr<BodySpec> FromWire(const wire::BodyDescription& from) {
+  if (!from.shape || !from.mass_kg) {
+    return absl::InvalidArgumentError("shape, mass_kg: both are needed");
+  }
   BodySpec spec;
   spec.name = from.name;
   spec.owner = from.owner;
-  spec.control = from.control;
-  spec.radiation = from.radiation;
-  ONESEA_ASSIGN_OR_RETURN(spec.shape, ShapeOf(from.shape));
-  spec.mass_kg = from.mass_kg;
+  if (from.control) spec.control = *from.control;
+  if (from.radiation) spec.radiation = *from.radiation;
+  ONESEA_ASSIGN_OR_RETURN(spec.shape, ShapeOf(*from.shape));
+  spec.mass_kg = *from.mass_kg;
   spec.centre_of_mass_m = from.centre_of_mass_m;
   if (from.inertia_kg_m2) spec.inertia_kg_m2 = Mat3d{*from.inertia_kg_m2};
   spec.added_mass = MatrixOf(from.added_mass);
   spec.radiation_damping = MatrixOf(from.radiation_damping);
   spec.viscous_damping = MatrixOf(from.viscous_damping);
   if (from.quadratic_damping) spec.quadratic_damping = *MatrixOf(from.quadratic_damping);
-  spec.drag = from.drag;
-  spec.windage = from.windage;
+  if (from.drag) spec.drag = *from.drag;
+  if (from.windage) spec.windage = *from.windage;
   spec.thrusters = from.thrusters;
   for (wire::Thruster& thruster : spec.thrusters) {
     thruster.direction = (1.0 / Norm(thruster.direction)) * thruster.direction;
   }
   spec.rudders = from.rudders;
-  spec.contact_friction = from.contact_friction;
-  spec.contact_restitution = from.contact_restitution;
+  if (from.contact_friction) spec.contact_friction = *from.contact_friction;
+  if (from.contact_restitution) spec.contact_restitution = *from.contact_restitution;
   return spec;
 }
 
@@ -72,8 +75,8 @@ wire::BodyInfo InfoOf(const wire::BodyDescription& description, const BodyModel&
   wire::BodyInfo info;
   info.name = description.name;
   info.owner = description.owner;
-  info.colour_rgb = description.colour_rgb;
-  info.shape = description.shape;
+  info.colour_rgb = description.colour_rgb.value_or(wire::kBodyColourDefault);
+  info.shape = *description.shape;
   info.shape.mesh.clear();
   info.centre_of_mass_m = model.centre_of_mass_m;
   info.mass_kg = model.spec.mass_kg;

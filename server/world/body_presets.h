@@ -1,19 +1,27 @@
 #pragma once
 
+#include <string_view>
+#include <vector>
+
 #include "absl/status/statusor.h"
 #include "absl/strings/string_view.h"
-#include "server/world/body_spec.h"
+#include "common/wire/body_description.h"
 
-/// Bodies with sensible figures, of nobody's real make.
-///
-///   motor-boat  5.0 x 2.0 m, 450 kg, outboard motor that steers, planes
-///   work-boat   10 x 3.4 m, 9 t, propeller and rudder behind it
-///   buoy        1.2 m across, 500 kg, weight low
-///   crate       1 x 1 x 0.8 m, 240 kg
-///   raft        3 x 2 x 0.3 m, 400 kg
+/// The ready-made bodies that commands and session files know by name: the one list of them. Bodies
+/// of sensible figures, of nobody's real make.
 namespace onesea::world {
 
-/// NotFound naming those that there are.
-absl::StatusOr<BodySpec> BodyPreset(absl::string_view name);
+struct BodyPresetEntry {
+  std::string_view name;
+  std::string_view summary;  ///< one line for people
+};
+std::vector<BodyPresetEntry> BodyPresets();
+
+/// Complete, of that name, with the bytes of its mesh. NotFound naming those that there are.
+absl::StatusOr<wire::BodyDescription> BodyPreset(absl::string_view name);
+
+/// The description with its preset filled in (wire::Overlaid), or as it is if it names none.
+/// NotFound.
+absl::StatusOr<wire::BodyDescription> WithPreset(wire::BodyDescription given);
 
 }  // namespace onesea::world

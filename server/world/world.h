@@ -82,8 +82,8 @@ struct PreparedBody {
   std::shared_ptr<const std::string> mesh;  ///< the hull's file, or null
   wire::BodyInfo info;                      ///< but for the id
 };
-/// InvalidArgument.
-absl::StatusOr<PreparedBody> PrepareBody(wire::BodyDescription description);
+/// Fills in what the preset says, if it names one. NotFound for the preset, InvalidArgument.
+absl::StatusOr<PreparedBody> PrepareBody(wire::BodyDescription given);
 
 /// Not thread-safe. Same options and same calls, same bits.
 class World {

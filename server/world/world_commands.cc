@@ -9,6 +9,7 @@
 #include "common/base/limits.h"
 #include "common/sea/constants.h"
 #include "server/world/body_from_wire.h"
+#include "server/world/body_presets.h"
 #include "server/world/world.h"
 
 namespace onesea::world {
@@ -39,13 +40,14 @@ Dome DomeOf(double energy_j, double depth_m) {
 
 }  // namespace
 
-absl::StatusOr<PreparedBody> PrepareBody(wire::BodyDescription description) {
+absl::StatusOr<PreparedBody> PrepareBody(wire::BodyDescription given) {
+  ONESEA_ASSIGN_OR_RETURN(wire::BodyDescription description, WithPreset(std::move(given)));
   ONESEA_ASSIGN_OR_RETURN(BodySpec spec, FromWire(description));
   PreparedBody body;
   ONESEA_ASSIGN_OR_RETURN(body.model, MakeBodyModel(std::move(spec)));
   body.info = InfoOf(description, *body.model);
-  if (!description.shape.mesh.empty()) {
-    body.mesh = std::make_shared<const std::string>(std::move(description.shape.mesh));
+  if (!description.shape->mesh.empty()) {
+    body.mesh = std::make_shared<const std::string>(std::move(description.shape->mesh));
   }
   return body;
 }

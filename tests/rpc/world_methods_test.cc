@@ -43,6 +43,15 @@ class WorldMethodsTest : public RpcFixture {
     return request;
   }
 
+  grpc::Status SpawnPreset(const std::string& id, const std::string& preset,
+                           v1::SpawnBodyResponse* response) {
+    v1::SpawnBodyRequest request;
+    *request.mutable_command() = Header(id);
+    request.mutable_body()->set_preset(preset);
+    request.mutable_body()->set_mass_kg(600);
+    return Call(&Stub::SpawnBody, request, response);
+  }
+
   v1::SpawnBodyResponse SpawnBoat(const std::string& id) {
     v1::SpawnBodyResponse response;
     const grpc::Status status = Call(&Stub::SpawnBody, BoatRequest(id), &response);
@@ -117,6 +126,62 @@ TEST_F(WorldMethodsTest, ARetryIsHarmless) {
   EXPECT_EQ(first.body_id(), again.body_id());
   EXPECT_EQ(first.lease(), again.lease());
   EXPECT_EQ(List().bodies_size(), 1);
+}
+
+TEST_F(WorldMethodsTest, APresetIsNamedAndItsHullIsFetchedByHash) {
+  v1::SpawnBodyResponse boat;
+  const grpc::Status spawned = SpawnPreset("spawn", "boat", &boat);
+  ASSERT_TRUE(spawned.ok()) << spawned.error_message();
+  const v1::BodyInfo info = List().bodies(0).info();
+  EXPECT_EQ(info.name(), "boat");
+  EXPECT_EQ(info.mass_kg(), 600);  // what was given besides
+  ASSERT_TRUE(info.shape().has_mesh());
+  EXPECT_TRUE(info.shape().mesh().file().empty());
+  v1::GetMeshRequest ask;
+  ask.set_session("small");
+  ask.set_hash(info.shape().mesh().hash());
+  v1::GetMeshResponse mesh;
+  ASSERT_TRUE(Call(&Stub::GetMesh, ask, &mesh).ok());
+  EXPECT_EQ(wire::MeshHash(mesh.file()), ask.hash());
+  EXPECT_TRUE(Drive(boat.body_id(), boat.lease(), "drive").ok());  // with the preset's motor
+
+  v1::SpawnBodyResponse none;
+  const grpc::Status refused = SpawnPreset("other", "submarine", &none);
+  EXPECT_EQ(refused.error_code(), grpc::StatusCode::NOT_FOUND);
+  v1::ListPresetsResponse list;
+  ASSERT_TRUE(Call(&Stub::ListPresets, v1::ListPresetsRequest(), &list).ok());
+  EXPECT_GE(list.presets_size(), 5);
+  for (const auto& preset : list.presets()) {
+    EXPECT_THAT(refused.error_message(), HasSubstr(preset.name()));
+    EXPECT_FALSE(preset.summary().empty());
+    EXPECT_GT(preset.body().mass_kg(), 0.0);
+    EXPECT_TRUE(preset.body().shape().mesh().file().empty());
+  }
+}
+
+// As a session file or a request to create one may say it.
+TEST_F(WorldMethodsTest, ASessionMayBeginWithPresets) {
+  v1::CreateSessionRequest create;
+  wire::ToProto(SmallSession("harbour"), create.mutable_spec());
+  v1::StartBody& start = *create.mutable_spec()->mutable_world()->add_bodies();
+  start.mutable_body()->set_preset("crate");
+  start.mutable_body()->set_name("tea");
+  v1::CreateSessionResponse created;
+  const grpc::Status made = Call(&Stub::CreateSession, create, &created);
+  ASSERT_TRUE(made.ok()) << made.error_message();
+  v1::ListBodiesRequest ask;
+  ask.set_session("harbour");
+  v1::ListBodiesResponse bodies;
+  ASSERT_TRUE(Call(&Stub::ListBodies, ask, &bodies).ok());
+  ASSERT_EQ(bodies.bodies_size(), 1);
+  EXPECT_EQ(bodies.bodies(0).info().name(), "tea");
+  EXPECT_EQ(bodies.bodies(0).info().shape().box().size_m().z(), 0.8);
+
+  create.mutable_spec()->set_name("other");
+  create.mutable_spec()->mutable_world()->mutable_bodies(0)->mutable_body()->set_preset("kraken");
+  const grpc::Status refused = Call(&Stub::CreateSession, create, &created);
+  EXPECT_EQ(refused.error_code(), grpc::StatusCode::NOT_FOUND);
+  EXPECT_THAT(refused.error_message(), HasSubstr("kraken"));
 }
 
 TEST_F(WorldMethodsTest, OnlyTheLeaseDrives) {

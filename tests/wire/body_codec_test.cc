@@ -256,6 +256,9 @@ TEST(BodyTable, WhatDoesNotFitIsRefusedAndChangesNothing) {
 TEST(BodyDescription, EveryNumberHasItsLimits) {
   const auto message = [](auto change) {
     BodyDescription body;
+    body.shape.emplace();
+    body.mass_kg = 1.0;
+    body.windage.emplace();
     body.thrusters.resize(1);
     body.rudders.resize(1);
     EXPECT_TRUE(ValidateBodyDescription("body.", body).ok());
@@ -265,9 +268,12 @@ TEST(BodyDescription, EveryNumberHasItsLimits) {
   const double nan = std::nan("");
   EXPECT_THAT(message([&](auto& b) { b.mass_kg = nan; }), HasSubstr("body.mass_kg: nan"));
   EXPECT_THAT(message([](auto& b) { b.mass_kg = 0.0; }), HasSubstr("body.mass_kg: 0 is outside"));
-  EXPECT_THAT(message([](auto& b) { b.shape.size_m.y = -1.0; }), HasSubstr("shape.size.y_m: -1"));
-  EXPECT_THAT(message([](auto& b) { b.shape.kind = static_cast<ShapeKind>(9); }),
+  EXPECT_THAT(message([](auto& b) { b.shape->size_m.y = -1.0; }), HasSubstr("shape.size.y_m: -1"));
+  EXPECT_THAT(message([](auto& b) { b.shape->kind = static_cast<ShapeKind>(9); }),
               HasSubstr("shape.kind"));
+  EXPECT_THAT(message([](auto& b) { b.shape.reset(); }), HasSubstr("body.shape: is missing"));
+  EXPECT_THAT(message([](auto& b) { b.mass_kg.reset(); }), HasSubstr("body.mass_kg: is missing"));
+  EXPECT_THAT(message([](auto& b) { b.preset.assign(65, 'x'); }), HasSubstr("body.preset"));
   EXPECT_THAT(message([](auto& b) { b.name.assign(65, 'x'); }), HasSubstr("65 bytes"));
   EXPECT_THAT(message([](auto& b) { b.colour_rgb = 0x1000000; }), HasSubstr("colour_rgb"));
   EXPECT_THAT(message([](auto& b) { b.thrusters[0].direction = {}; }),
@@ -282,7 +288,7 @@ TEST(BodyDescription, EveryNumberHasItsLimits) {
                 b.centre_of_mass_m = Vec3d{0.0, nan, 0.0};
               }),
               HasSubstr("centre_of_mass_m.y"));
-  EXPECT_THAT(message([&](auto& b) { b.windage.lateral_area_m2 = -1.0; }),
+  EXPECT_THAT(message([&](auto& b) { b.windage->lateral_area_m2 = -1.0; }),
               HasSubstr("windage.lateral_area_m2"));
 }
 

@@ -103,8 +103,8 @@ TEST(WorldCodec, BodiesKeepEveryField) {
   for (const ShapeKind kind :
        {ShapeKind::kBox, ShapeKind::kSphere, ShapeKind::kCylinder, ShapeKind::kCapsule}) {
     BodyDescription round;
-    round.shape.kind = kind;
-    if (kind != ShapeKind::kBox) round.shape.radius_m = 0.7;
+    round.shape = BodyShape{.kind = kind};
+    if (kind != ShapeKind::kBox) round.shape->radius_m = 0.7;
     v1::BodyDescription shaped;
     ToProto(round, &shaped);
     EXPECT_EQ(*FromProto(shaped, ""), round);
@@ -118,7 +118,8 @@ TEST(WorldCodec, WhatABodyLeavesOutIsTheDefault) {
   proto.add_thrusters();
   proto.add_rudders();
   BodyDescription expected;
-  expected.shape.kind = ShapeKind::kSphere;
+  expected.shape = BodyShape{.kind = ShapeKind::kSphere};
+  expected.mass_kg = 1.0;
   expected.thrusters.resize(1);
   expected.rudders.resize(1);
   EXPECT_EQ(*FromProto(proto, ""), expected);
@@ -127,6 +128,39 @@ TEST(WorldCodec, WhatABodyLeavesOutIsTheDefault) {
   proto.mutable_shape()->mutable_mesh()->set_path("/etc/passwd");
   EXPECT_THAT(std::string(FromProto(proto, "").status().message()),
               HasSubstr("only session files may name files"));
+}
+
+TEST(WorldCodec, APresetAloneIsEnough) {
+  v1::BodyDescription proto;
+  proto.set_preset("crate");
+  const BodyDescription named = *FromProto(proto, "");
+  BodyDescription expected;
+  expected.preset = "crate";
+  EXPECT_EQ(named, expected);
+  EXPECT_TRUE(ValidateBodyDescription("", named).ok());
+  // And comes back alone: a default is not something that was said.
+  v1::BodyDescription again;
+  ToProto(named, &again);
+  EXPECT_EQ(again.SerializeAsString(), proto.SerializeAsString());
+}
+
+TEST(WorldCodec, WhatIsGivenReplacesThePresets) {
+  BodyDescription base = FullBody();
+  base.preset.clear();
+  BodyDescription given;
+  given.preset = "whatever";
+  EXPECT_EQ(Overlaid(base, given), base);
+  given.name = "mine";
+  given.mass_kg = 2.0;
+  given.drag = Drag{};
+  given.thrusters.resize(1);
+  BodyDescription expected = base;
+  expected.name = "mine";
+  expected.mass_kg = 2.0;
+  expected.drag = Drag{};
+  expected.thrusters = {Thruster{}};
+  EXPECT_EQ(Overlaid(base, given), expected);
+  EXPECT_EQ(Overlaid(BodyDescription{}, base), base);  // no field is forgotten
 }
 
 TEST(WorldCodec, CommandsKeepTheirFieldsAndHeader) {
@@ -212,7 +246,7 @@ TEST(WorldCodec, CommandsOutOfTheirLimitsAreRefused) {
   spawn.start.velocity_m_per_s.z = 1e9;
   refused(Through<v1::SpawnBodyRequest>(spawn), "start.velocity_m_per_s.z");
   spawn = {FullBody(), FullKinematics()};
-  spawn.body.shape.mesh.clear();
+  spawn.body.shape->mesh.clear();
   refused(Through<v1::SpawnBodyRequest>(spawn), "body.shape.mesh.file: is empty");
 }
 
@@ -246,16 +280,19 @@ TEST(WorldCodec, PosesAndInstrumentsGoThereAndBack) {
               HasSubstr("poses[0].state.spin_rad_per_s.x: nan"));
 
   const InstrumentRequest request{
-      "tank", {WaveGauge{{1.0, 2.0}}, PressureGauge{0, {1.0, 2.0, -3.0}}, Imu{4, {0.5, 0, 0}}}, 6};
+      "tank", {WaveGauge{{1.0, 2.0}}, PressureGauge{0, {1.0, 2.0, -3.0}}, Imu{4, {0.5, 0, 0}},
+               Motion{5}}, 6};
   v1::StreamInstrumentsRequest asked;
   ToProto(request, &asked);
   const auto read = FromProto(asked);
   ASSERT_TRUE(read.ok()) << read.status();
-  ASSERT_EQ(read->instruments.size(), 3U);
+  ASSERT_EQ(read->instruments.size(), 4U);
   EXPECT_EQ(std::get<WaveGauge>(read->instruments[0]).place_m, (Vec2d{1.0, 2.0}));
   EXPECT_EQ(std::get<PressureGauge>(read->instruments[1]).position_m, (Vec3d{1.0, 2.0, -3.0}));
   EXPECT_EQ(std::get<Imu>(read->instruments[2]).body_id, 4U);
+  EXPECT_EQ(std::get<Motion>(read->instruments[3]).body_id, 5U);
   EXPECT_EQ(ValueCount(read->instruments[2]), 10);
+  EXPECT_EQ(ValueCount(read->instruments[3]), 13);
   EXPECT_EQ(read->ticks_per_reading, 6);
   asked.add_instruments();
   EXPECT_THAT(std::string(FromProto(asked).status().message()), HasSubstr("is none of wave_gauge"));
@@ -270,7 +307,7 @@ world {
   terrain_path: "bay.asc"
   regions { cell_m: 0.5 follow_body_id: 1 }
   bodies {
-    body { name: "boat" mass_kg: 400 shape { box { size_m { x: 4 y: 1.5 z: 0.8 } } } }
+    body { name: "boat" mass_kg: 400 preset: "raft" shape { box { size_m { x: 4 y: 1.5 z: 0.8 } } } }
     start { position_m { x: 10 y: -5 } }
   }
   water_level { time_s: 0 level_m: 0.5 }

@@ -11,14 +11,14 @@ namespace onesea::wire {
 
 inline BodyDescription FullBody() {
   BodyDescription body;
+  body.preset = "work-boat";
   body.name = "tug";
   body.owner = "harbour";
   body.colour_rgb = 0xFF8000;
   body.control = BodyControl::kByOwner;
   body.radiation = Radiation::kGrid;
-  body.shape.kind = ShapeKind::kMesh;
-  body.shape.mesh = "solid tug";
-  body.shape.mesh_hash = MeshHash(body.shape.mesh);
+  body.shape =
+      BodyShape{.kind = ShapeKind::kMesh, .mesh = "solid tug", .mesh_hash = MeshHash("solid tug")};
   body.mass_kg = 12345.6;
   body.centre_of_mass_m = Vec3d{0.1, -0.2, 0.3};
   body.inertia_kg_m2 = {1.0, 0.1, 0.2, 0.1, 2.0, 0.3, 0.2, 0.3, 3.0};
@@ -26,8 +26,8 @@ inline BodyDescription FullBody() {
   body.radiation_damping.emplace().fill(2.5);
   body.viscous_damping.emplace().fill(3.5);
   body.quadratic_damping.emplace().fill(4.5);
-  body.drag = {0.01, 0.7, 0.5, 1.2};
-  body.windage = {3.0, 9.0, 0.9, 1.1, {0.0, 0.0, 2.0}};
+  body.drag = Drag{0.01, 0.7, 0.5, 1.2};
+  body.windage = Windage{3.0, 9.0, 0.9, 1.1, {0.0, 0.0, 2.0}};
   body.thrusters = {{{-3.0, 0.5, -1.0}, {1.0, 0.1, 0.0}, 0.8, 12.0, 0.3, 0.35, 1.5, 0.4}, {}};
   body.rudders = {{{-3.5, 0.0, -1.0}, 0.7, 1.8, 0.5, 0.9, 1}, {}};
   body.contact_friction = 0.6;

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "absl/strings/match.h"
+#include "server/world/body_from_wire.h"
 #include "server/world/body_presets.h"
 #include "server/world/hull_shapes.h"
 
@@ -17,7 +18,7 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 // What a change of a good body is refused for; empty: not at all.
 std::string Refusal(auto change) {
-  BodySpec spec = *BodyPreset("work-boat");
+  BodySpec spec = *FromWire(*BodyPreset("work-boat"));
   change(spec);
   return std::string(ValidateBodySpec(spec).message());
 }

@@ -1,12 +1,16 @@
 // Many bodies: contacts, ropes, refusals, replay.
 #include "server/world/rigid_bodies.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
+#include "common/ingest/mesh_file.h"
+#include "server/world/body_from_wire.h"
 #include "server/world/body_presets.h"
+#include "server/world/hull_shapes.h"
 #include "tests/world/body_run.h"
 #include "tests/world/regular_wave_patch.h"
 
@@ -34,7 +38,8 @@ struct Waves : WaterSource {
   }
 };
 
-std::shared_ptr<const BodyModel> Preset(const char* name) { return Model(*BodyPreset(name), 1025); }
+BodySpec PresetSpec(const char* name) { return *FromWire(*BodyPreset(name)); }
+std::shared_ptr<const BodyModel> Preset(const char* name) { return Model(PresetSpec(name), 1025); }
 BodyState At(const BodyModel& model, double x, double y) {
   BodyState state = Afloat(model);
   state.pose.centre_m.x = x, state.pose.centre_m.y = y;
@@ -45,24 +50,44 @@ void RunFor(RigidBodies& world, WaterSource& water, double seconds) {
 }
 
 TEST(BodyPreset, AllFloatUprightAndAreStable) {
-  for (const char* name : {"motor-boat", "work-boat", "buoy", "crate", "raft"}) {
+  for (const BodyPresetEntry& preset : BodyPresets()) {
+    const char* const name = preset.name.data();
     const auto model = Preset(name);
     EXPECT_TRUE(model->rest.floats) << name;
     EXPECT_GT(model->rest.roll_n_m_per_rad, 0) << name;
     EXPECT_GT(model->rest.pitch_n_m_per_rad, 0) << name;
-    BodyRun run(*BodyPreset(name), 1025);
+    BodyRun run(PresetSpec(name), 1025);
     run.Run(60);
     EXPECT_GT(run.Up().z, 0.97) << name;
     EXPECT_LT(Norm(run.state.velocity_m_per_s), 0.05) << name;
   }
-  EXPECT_FALSE(BodyPreset("submarine").ok());
+}
+
+TEST(BodyPreset, UnknownOnesAreRefusedWithThoseThereAre) {
+  const auto none = BodyPreset("submarine");
+  EXPECT_EQ(none.status().code(), absl::StatusCode::kNotFound);
+  EXPECT_THAT(std::string(none.status().message()), testing::HasSubstr("\"submarine\""));
+  for (const BodyPresetEntry& preset : BodyPresets()) {
+    EXPECT_THAT(std::string(none.status().message()), testing::HasSubstr(preset.name.data()));
+  }
+}
+
+// The file keeps the hull: floats round its vertices, that is all.
+TEST(BodyPreset, TheFileOfAHullIsTheHull) {
+  const TriangleMesh hull = BoatMesh({});
+  const auto read = ingest::ReadMeshFile(BodyPreset("boat")->shape->mesh);
+  ASSERT_TRUE(read.ok()) << read.status();
+  EXPECT_TRUE(ValidateMesh(*read).ok());
+  EXPECT_EQ(read->triangles.size(), hull.triangles.size());
+  EXPECT_NEAR(ComputeSolid(*read).volume_m3, ComputeSolid(hull).volume_m3, 1e-5);
+  EXPECT_NEAR(ComputeSolid(*read).centroid_m.y, 0.0, 1e-7);
 }
 
 // Full ahead gives a speed of its kind; hard over gives a circle that closes, of some lengths.
 TEST(BodyPreset, BoatsDriveAndTurn) {
   for (const auto& [name, length_m, slowest, fastest] :
-       {std::tuple("motor-boat", 5.0, 4.0, 14.0), {"work-boat", 10.0, 2.5, 7.0}}) {
-    BodyRun run(*BodyPreset(name), 1025);
+       {std::tuple("boat", 5.0, 4.0, 14.0), {"work-boat", 10.0, 2.5, 7.0}}) {
+    BodyRun run(PresetSpec(name), 1025);
     run.state.command.throttle[0] = 1.0;
     run.Run(60);
     const double speed = Norm(run.state.velocity_m_per_s);
@@ -96,7 +121,7 @@ TEST(RigidBodies, ABodyAloneMovesAsWithoutBullet) {
   state.pose.centre_m.z += 1;
   state.spin_rad_per_s = {0.3, 0.2, 1};
   const BodyId id = *world.Add(model, state);
-  BodyRun alone(*BodyPreset("crate"), 1025);
+  BodyRun alone(PresetSpec("crate"), 1025);
   alone.state = state;
   for (int n = 0; n < 600; ++n) {
     world.Step(water, {});
@@ -139,7 +164,7 @@ TEST(RigidBodies, TerrainHolds) {
   BodyState state = At(*crate, 110, 0);
   state.pose.centre_m.z = 8;
   const BodyId dropped = *world.Add(crate, state);
-  const auto boat = Preset("motor-boat");
+  const auto boat = Preset("boat");
   BodyState driving = At(*boat, 0, 0);
   driving.command.throttle[0] = 0.4;
   const BodyId grounded = *world.Add(boat, driving);
@@ -225,7 +250,7 @@ TEST(RigidBodies, RefusesWhatIsNotANumberAndGoesOn) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   RigidBodies world(kStep, nullptr), untouched(kStep, nullptr);
   CalmWater water;
-  const auto model = Preset("motor-boat");
+  const auto model = Preset("boat");
   const BodyId id = *world.Add(model, At(*model, 0, 0));
   ASSERT_TRUE(untouched.Add(model, At(*model, 0, 0)).ok());
   DriveCommand drive;
@@ -258,7 +283,7 @@ TEST(RigidBodies, RefusesWhatIsNotANumberAndGoesOn) {
 // A heap of everything in waves, driven.
 void Fill(RigidBodies& world) {
   for (int n = 0; n < 30; ++n) {
-    const auto model = Preset(n % 3 == 0 ? "crate" : n % 3 == 1 ? "buoy" : "motor-boat");
+    const auto model = Preset(n % 3 == 0 ? "crate" : n % 3 == 1 ? "buoy" : "boat");
     BodyState state = At(*model, 1.5 * (n % 5), 1.5 * (n / 5));
     state.pose.centre_m.z += 0.7 * n;
     state.command.throttle[0] = 0.3;
@@ -297,7 +322,7 @@ TEST(RigidBodies, ReplaysBitForBit) {
 
 // A body moved by its owner pushes others, and its wrench holds its weight.
 TEST(RigidBodies, BodiesOfOthersPushAndFloat) {
-  BodySpec spec = *BodyPreset("work-boat");
+  BodySpec spec = PresetSpec("work-boat");
   spec.control = BodyControl::kByOwner;
   const auto model = Model(spec, 1025);
   RigidBodies world(kStep, nullptr);
@@ -319,7 +344,7 @@ TEST(RigidBodies, BodiesOfOthersPushAndFloat) {
 TEST(RigidBodies, StopsAtTheEdgeOfTheWorld) {
   for (const BodyControl control : {BodyControl::kIntegrated, BodyControl::kByOwner}) {
     RigidBodies world(kStep, nullptr);
-    BodySpec spec = *BodyPreset("crate");
+    BodySpec spec = PresetSpec("crate");
     spec.control = control;
     const auto model = Model(spec, 1025);
     BodyState state = At(*model, kQueryCoordinateMaxM - 1.0, 0);

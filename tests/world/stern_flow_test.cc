@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "server/world/body_from_wire.h"
 #include "server/world/body_presets.h"
 #include "server/world/hull_shapes.h"
 #include "server/world/world.h"
@@ -80,7 +81,7 @@ Trial TryOut(const char* preset) {
       sea::FakeSea({.lengths_m = {97.0}, .index_max = 4, .hs_m = 1e-6, .query_grid_size = 64});
   World world{WorldOptions{}};
   PreparedBody body;
-  body.model = *MakeBodyModel(*BodyPreset(preset));
+  body.model = *MakeBodyModel(*FromWire(*BodyPreset(preset)));
   const std::uint32_t id = *world.Spawn(body, {});
   Tick tick = 0;
   Trial trial;
@@ -104,7 +105,7 @@ Trial TryOut(const char* preset) {
 }
 
 TEST(Driving, AMotorBoatKeepsItsTrimAndComesOutOfATurn) {
-  const Trial trial = TryOut("motor-boat");
+  const Trial trial = TryOut("boat");
   EXPECT_GT(trial.speed_m_per_s, 6.0);
   EXPECT_LT(trial.pitch_max_deg, 6.0);
   EXPECT_LT(trial.heel_max_deg, 30.0);

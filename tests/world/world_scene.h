@@ -17,8 +17,7 @@ inline std::shared_ptr<const sea::Components> Calm() {
 inline wire::BodyDescription Box(Vec3d size_m, double mass_kg) {
   wire::BodyDescription body;
   body.name = "box";
-  body.shape.kind = wire::ShapeKind::kBox;
-  body.shape.size_m = size_m;
+  body.shape = wire::BodyShape{.kind = wire::ShapeKind::kBox, .size_m = size_m};
   body.mass_kg = mass_kg;
   body.centre_of_mass_m = Vec3d{0, 0, -0.2 * size_m.z};
   return body;
@@ -26,7 +25,7 @@ inline wire::BodyDescription Box(Vec3d size_m, double mass_kg) {
 
 inline wire::BodyDescription Boat() {
   wire::BodyDescription boat = Box({6.0, 2.0, 1.0}, 3000.0);
-  boat.drag = {.friction = 0.004, .pressure = 0.3, .suction = 0.2};
+  boat.drag = wire::Drag{.friction = 0.004, .pressure = 0.3, .suction = 0.2};
   wire::Thruster thruster;
   thruster.position_m = {-2.5, 0, -0.3};
   thruster.diameter_m = 0.5;
