@@ -115,6 +115,22 @@ absl::StatusOr<Vec2d> ParsePlace(absl::string_view what, absl::string_view text)
   return place;
 }
 
+absl::StatusOr<std::vector<double>> ParseNumbers(absl::string_view what, absl::string_view form,
+                                                 absl::string_view text, double max) {
+  const std::vector<absl::string_view> names = absl::StrSplit(form, ',');
+  const std::vector<absl::string_view> parts = absl::StrSplit(text, ',');
+  if (parts.size() != names.size()) {
+    return absl::InvalidArgumentError(
+        absl::StrFormat("%s is '%s', it must be %s", what, text, form));
+  }
+  std::vector<double> numbers;
+  for (std::size_t n = 0; n < parts.size(); ++n) {
+    ONESEA_ASSIGN_OR_RETURN(numbers.emplace_back(),
+                            ParseNumber(absl::StrCat(names[n], " of ", what), parts[n], -max, max));
+  }
+  return numbers;
+}
+
 absl::StatusOr<double> ParseSpan(absl::string_view what, absl::string_view text, double min_s,
                                  double max_s) {
   struct Unit {

@@ -50,6 +50,9 @@ absl::StatusOr<std::int64_t> ParseInteger(absl::string_view what, absl::string_v
                                           std::int64_t min, std::int64_t max);
 /// "X,Y" in metres, each within kQueryCoordinateMaxM.
 absl::StatusOr<Vec2d> ParsePlace(absl::string_view what, absl::string_view text);
+/// As many numbers as `form` ("X,Y,Z") has names, each within `max` either way.
+absl::StatusOr<std::vector<double>> ParseNumbers(absl::string_view what, absl::string_view form,
+                                                 absl::string_view text, double max);
 /// "90", "90s", "1.5min", "2h", "500ms" -> seconds.
 absl::StatusOr<double> ParseSpan(absl::string_view what, absl::string_view text, double min_s,
                                  double max_s);

@@ -23,7 +23,11 @@ CliCommand SpawnCommand();
 CliCommand PresetsCommand();
 CliCommand BodiesCommand();
 CliCommand DriveCommand();
+CliCommand ImpulseCommand();
 CliCommand ExplodeCommand();
+CliCommand ObstacleCommand();
+CliCommand RegionCommand();
+CliCommand InstrumentsCommand();
 CliCommand RemoveCommand();
 CliCommand RopeCommand();
 

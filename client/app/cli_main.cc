@@ -8,10 +8,11 @@
 int main(int argc, char** argv) {
   using namespace onesea::app;  // NOLINT(build/namespaces): the program is this namespace
   const std::vector<CliCommand> commands = {
-      SessionsCommand(), CreateCommand(),   DeleteCommand(), QueryCommand(),  WatchCommand(),
-      WeatherCommand(),  HoldCommand(),     ResumeCommand(), StepCommand(),   SpeedCommand(),
-      HashCommand(),     SpectrumCommand(), SpawnCommand(), PresetsCommand(),  BodiesCommand(), DriveCommand(),
-      ExplodeCommand(),  RemoveCommand(),   RopeCommand()};
+      SessionsCommand(),    CreateCommand(),   DeleteCommand(),  QueryCommand(),    WatchCommand(),
+      WeatherCommand(),     HoldCommand(),     ResumeCommand(),  StepCommand(),     SpeedCommand(),
+      HashCommand(),        SpectrumCommand(), SpawnCommand(),   PresetsCommand(),  BodiesCommand(),
+      DriveCommand(),       ImpulseCommand(),  ExplodeCommand(), ObstacleCommand(), RegionCommand(),
+      InstrumentsCommand(), RemoveCommand(),   RopeCommand()};
   // An error is one line; gRPC would add its own.
   setenv("GRPC_VERBOSITY", "NONE", /*overwrite=*/0);
   const char* server = std::getenv("ONESEA_SERVER");

@@ -1,4 +1,4 @@
-// The commands on a session's world: spawn, bodies, drive, explode, remove.
+// The commands on bodies: spawn, presets, bodies, drive, impulse, remove.
 
 #include <cmath>
 #include <numbers>
@@ -15,20 +15,6 @@
 
 namespace onesea::app {
 namespace {
-
-constexpr double kKilogramOfTntJ = 4.2e6;
-
-absl::StatusOr<std::uint32_t> BodyOperand(const Arguments& arguments) {
-  ONESEA_ASSIGN_OR_RETURN(const std::int64_t id,
-                          InUsage(ParseInteger("BODY", arguments.operands()[0], 1, 0xffffffff)));
-  return static_cast<std::uint32_t>(id);
-}
-
-absl::StatusOr<Vec2d> PlaceOption(const Arguments& arguments) {
-  const std::optional<std::string> text = arguments.Get("at");
-  if (!text) return UsageError("--at X,Y is needed, metres east and north");
-  return InUsage(ParsePlace("--at", *text));
-}
 
 absl::Status RunSpawn(const CliContext& context, const Arguments& arguments) {
   wire::SpawnBody spawn;
@@ -123,16 +109,23 @@ absl::Status RunDrive(const CliContext& context, const Arguments& arguments) {
   return absl::OkStatus();
 }
 
-absl::Status RunExplode(const CliContext& context, const Arguments& arguments) {
-  ONESEA_ASSIGN_OR_RETURN(const Vec2d place, PlaceOption(arguments));
-  ONESEA_ASSIGN_OR_RETURN(const double tnt_kg, NumberOr(arguments, "tnt", 1.0, 1e-3, 2000.0));
-  ONESEA_ASSIGN_OR_RETURN(const double depth_m, NumberOr(arguments, "depth", 1.0, 0.0, 1000.0));
+absl::Status RunImpulse(const CliContext& context, const Arguments& arguments) {
+  wire::ApplyImpulse impulse;
+  ONESEA_ASSIGN_OR_RETURN(impulse.body_id, BodyOperand(arguments));
+  const std::optional<std::string> by = arguments.Get("by");
+  if (!by) return UsageError("--by X,Y,Z is needed, newton seconds east, north and up");
+  ONESEA_ASSIGN_OR_RETURN(const std::vector<double> parts,
+                          InUsage(ParseNumbers("--by", "X,Y,Z", *by, kImpulseMaxNS)));
+  impulse.impulse_n_s = {parts[0], parts[1], parts[2]};
+  if (const std::optional<std::string> at = arguments.Get("at")) {
+    ONESEA_ASSIGN_OR_RETURN(const std::vector<double> place,
+                            InUsage(ParseNumbers("--at", "X,Y,Z", *at, kQueryCoordinateMaxM)));
+    impulse.position_m = Vec3d{place[0], place[1], place[2]};
+  }
   ONESEA_ASSIGN_OR_RETURN(const ChosenSession chosen, ChooseSession(context));
   ONESEA_ASSIGN_OR_RETURN(const client::CommandAnswer answer,
-                          chosen.server->Command(HeaderFor(chosen.info, arguments),
-                                                 wire::Explode{{place.x, place.y, -depth_m},
-                                                               tnt_kg * kKilogramOfTntJ}));
-  PrintDone(context, chosen.info, answer, "an explosion");
+                          chosen.server->Command(HeaderFor(chosen.info, arguments), impulse));
+  PrintDone(context, chosen.info, answer, absl::StrCat("body ", impulse.body_id, " is pushed"));
   return absl::OkStatus();
 }
 
@@ -199,16 +192,17 @@ CliCommand DriveCommand() {
           .run = RunDrive};
 }
 
-CliCommand ExplodeCommand() {
-  return {.name = "explode",
-          .operands = "",
-          .summary = "sets off an underwater explosion in a region of the interaction layer",
-          .details = "",
-          .options = {{"at", "X,Y", "where, metres east and north"},
-                      {"tnt", "KG", "default 1"},
-                      {"depth", "M", "default 1"}},
-          .examples = {"onesea explode --at 10,0 --tnt 2"},
-          .run = RunExplode};
+CliCommand ImpulseCommand() {
+  return {.name = "impulse",
+          .operands = "BODY",
+          .operand_count = 1,
+          .summary = "pushes a body at once, as a blow does",
+          .details = "Mass times change of velocity; the water that moves along counts too.",
+          .options = {{"by", "X,Y,Z", "newton seconds east, north and up"},
+                      {"at", "X,Y,Z", "where it hits, metres; default the centre of mass"},
+                      {"lease", "TEXT", "of the body, if somebody holds it"}},
+          .examples = {"onesea impulse 1 --by 500,0,0", "onesea impulse 1 --by 0,0,200 --at 2,0,0"},
+          .run = RunImpulse};
 }
 
 CliCommand RemoveCommand() {

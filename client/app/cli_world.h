@@ -1,22 +1,26 @@
 #pragma once
 
+#include <cstdint>
+
 #include "absl/status/statusor.h"
-#include "absl/strings/string_view.h"
+#include "client/app/cli_arguments.h"
 #include "client/app/cli_command.h"
 #include "client/net/remote_server.h"
-#include "common/wire/world_command.h"
 
 /// What the commands on a session's world share.
 namespace onesea::app {
 
-/// With a request id of its own and --lease.
+/// With a request id of its own, and the lease that --lease shows.
 wire::CommandHeader HeaderFor(const SessionInfo& session, const Arguments& arguments);
 
-/// The option's number, or `otherwise` where it isn't given.
+/// The first operand, an id. A usage error if it is none.
+absl::StatusOr<std::uint32_t> BodyOperand(const Arguments& arguments);
+/// Of `--option N`. A usage error if it is no number or outside [min, max].
 absl::StatusOr<double> NumberOr(const Arguments& arguments, absl::string_view option,
                                 double otherwise, double min, double max);
+/// Of `--at X,Y`. A usage error if it is missing.
+absl::StatusOr<Vec2d> PlaceOption(const Arguments& arguments);
 
-/// "SESSION: WHAT from tick N", or JSON with the id and the lease that the command gave.
 void PrintDone(const CliContext& context, const SessionInfo& session,
                const client::CommandAnswer& answer, absl::string_view what);
 

@@ -9,12 +9,11 @@
 
 #include "absl/strings/str_cat.h"
 #include "common/base/check.h"
-#include "common/wire/body_kinds.h"
 
 namespace onesea::client {
 namespace {
 
-constexpr char kBoatKind[] = "boat", kCrateKind[] = "crate";
+constexpr char kBoatPreset[] = "boat", kCratePreset[] = "crate";
 constexpr char kOwner[] = "a viewer";
 constexpr double kLaunchAheadM = 15.0;  // of the camera
 constexpr double kBerthM = 10.0;        // free of others around a new boat
@@ -58,11 +57,9 @@ std::optional<Vec2d> FreePlace(Vec2d wanted, double heading_rad, const WorldView
   return std::nullopt;
 }
 
-wire::SpawnBody SpawnOf(const char* kind, Vec2d place, double heading_rad) {
-  absl::StatusOr<wire::BodyDescription> body = wire::BodyKind(kind);
-  ONESEA_CHECK(body.ok()) << body.status().ToString();
+wire::SpawnBody SpawnOf(const char* preset, Vec2d place, double heading_rad) {
   wire::SpawnBody spawn;
-  spawn.body = *std::move(body);
+  spawn.body.preset = preset;
   spawn.body.owner = kOwner;
   spawn.start.position_m = {place.x, place.y, 0.0};  // afloat
   spawn.start.turn = TurnBy({0, 0, heading_rad});
@@ -134,7 +131,7 @@ void Skipper::Done(Kind kind, std::int64_t number, const CommandAnswer& answer,
     boat_ = std::make_unique<Boat>(
         Boat{.id = answer.id,
              .lease = answer.lease,
-             .predictor = BoatPredictor(FiguresOf(wire::BodyKind(kBoatKind).value())),
+             .predictor = BoatPredictor(answer.body ? FiguresOf(*answer.body) : BoatFigures{}),
              .launched_ns = moment.now_ns});
     wire::RegionSpec region;  // so that it leaves a wake
     region.follow_body_id = answer.id;
@@ -222,7 +219,7 @@ void Skipper::ObeyKeys(const SkipperInput& input, const Outlook& outlook, const 
     const double ahead_m = aboard ? -kCrateAsternM : kLaunchAheadM;
     const Vec2d there = Along(place, heading_rad, ahead_m);
     if (IsAfloat(there, kCrateDepthM, world, moment.terrain)) {
-      Send(Kind::kCrate, SpawnOf(kCrateKind, there, heading_rad));
+      Send(Kind::kCrate, SpawnOf(kCratePreset, there, heading_rad));
     } else {
       Say("no crate: there is no water");
     }
@@ -245,7 +242,7 @@ void Skipper::Launch(const Outlook& outlook, const WorldView& world, const Momen
       FreePlace(Along(outlook.place_m, outlook.heading_rad, kLaunchAheadM), outlook.heading_rad,
                 world, moment);
   if (!place) return Say("no boat: there is no free water ahead");
-  wire::SpawnBody spawn = SpawnOf(kBoatKind, *place, outlook.heading_rad);
+  wire::SpawnBody spawn = SpawnOf(kBoatPreset, *place, outlook.heading_rad);
   spawn.body.colour_rgb = colour_rgb_;
   Send(Kind::kSpawn, std::move(spawn));
   launching_ = true;

@@ -14,27 +14,27 @@ constexpr double kSurgeMass = 1.05, kTurnInertia = 1.5;
 constexpr double kStillM_per_s = 0.5;
 
 // Length and beam.
-Vec2d PlanOf(const wire::BodyDescription& body) {
-  switch (body.shape.kind) {
+Vec2d PlanOf(const wire::BodyShape& shape, double mass_kg) {
+  switch (shape.kind) {
     case wire::ShapeKind::kBox:
-      return {body.shape.size_m.x, body.shape.size_m.y};
+      return {shape.size_m.x, shape.size_m.y};
     case wire::ShapeKind::kSphere:
     case wire::ShapeKind::kCylinder:
-      return {2.0 * body.shape.radius_m, 2.0 * body.shape.radius_m};
+      return {2.0 * shape.radius_m, 2.0 * shape.radius_m};
     case wire::ShapeKind::kCapsule:
-      return {body.shape.length_m + 2.0 * body.shape.radius_m, 2.0 * body.shape.radius_m};
+      return {shape.length_m + 2.0 * shape.radius_m, 2.0 * shape.radius_m};
     case wire::ShapeKind::kMesh:
       break;
   }
   // Boats of 450 kg and of 9 t are 5 and 10 m long: the cube of the length goes with the mass.
-  const double length_m = 0.55 * std::cbrt(body.mass_kg);
+  const double length_m = 0.55 * std::cbrt(mass_kg);
   return {length_m, 0.36 * length_m};
 }
 
 double TurnInertia(const wire::BodyDescription& body, Vec2d plan_m) {
   const double hull = body.inertia_kg_m2
                           ? (*body.inertia_kg_m2)[8]
-                          : body.mass_kg * (plan_m.x * plan_m.x + plan_m.y * plan_m.y) / 12.0;
+                          : *body.mass_kg * (plan_m.x * plan_m.x + plan_m.y * plan_m.y) / 12.0;
   return kTurnInertia * hull;
 }
 
@@ -46,15 +46,16 @@ void Follow(double target, double lag_s, double seconds, double& value) {
 
 BoatFigures FiguresOf(const wire::BodyDescription& body) {
   constexpr double kRho = sea::kWaterDensityKgPerM3;
-  const Vec2d plan_m = PlanOf(body);
-  const double mass_kg = kSurgeMass * body.mass_kg, inertia_kg_m2 = TurnInertia(body, plan_m);
+  const Vec2d plan_m = PlanOf(*body.shape, *body.mass_kg);
+  const wire::Drag drag = body.drag.value_or(wire::Drag{});
+  const double mass_kg = kSurgeMass * *body.mass_kg, inertia_kg_m2 = TurnInertia(body, plan_m);
   const Vec3d centre_m = body.centre_of_mass_m.value_or(Vec3d{});
   BoatFigures figures;
   figures.length_m = plan_m.x;
-  const double draft_m = body.mass_kg / (kRho * plan_m.x * plan_m.y);
+  const double draft_m = *body.mass_kg / (kRho * plan_m.x * plan_m.y);
   figures.drag_per_m = 0.5 * kRho *
-                       ((body.drag.pressure + body.drag.suction) * plan_m.y * draft_m +
-                        body.drag.friction * plan_m.x * (plan_m.y + 2.0 * draft_m)) /
+                       ((drag.pressure + drag.suction) * plan_m.y * draft_m +
+                        drag.friction * plan_m.x * (plan_m.y + 2.0 * draft_m)) /
                        mass_kg;
   if (body.thrusters.empty()) {
     figures.thrust_m_per_s2 = figures.fall_per_s = 0.0;

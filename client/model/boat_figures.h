@@ -25,7 +25,8 @@ struct BoatFigures {
   double throttle_lag_s = 0.6, steer_lag_s = 0.6;
 };
 
-/// From masses, gear and size; added mass by rules of thumb. Pre: valid description.
+/// From masses, gear and size; added mass by rules of thumb. Pre: valid description, with shape and
+/// mass.
 BoatFigures FiguresOf(const wire::BodyDescription& body);
 
 /// What lags behind the orders.

@@ -46,6 +46,8 @@ struct CommandAnswer {
   Tick tick = 0;         ///< the first that shows what it did
   std::uint32_t id = 0;  ///< of the body, obstacle or region made or changed, else 0
   std::string lease;     ///< of SpawnBody and TakeLease
+  std::optional<wire::BodyDescription>
+      body;  ///< of SpawnBody: its preset filled in, no mesh's bytes
 };
 
 struct ListedBody {
@@ -87,6 +89,27 @@ class QueryStream {
   std::unique_ptr<Impl> impl_;
 };
 
+struct InstrumentReading {
+  Tick tick = 0;
+  std::vector<double> values;      ///< of all instruments, in their order
+  std::int64_t skipped_count = 0;  ///< readings that were left out just before, for slowness
+};
+
+/// Readings of virtual instruments, as the session's ticks go by.
+class InstrumentStream {
+ public:
+  struct Impl;
+  explicit InstrumentStream(std::unique_ptr<Impl> impl);
+  ~InstrumentStream();  ///< ends the stream
+
+  /// Blocks for the next one, for ever where the session stands still. An error is the stream's
+  /// end: what was wrong with the request, or the session's end.
+  absl::StatusOr<InstrumentReading> Receive();
+
+ private:
+  std::unique_ptr<Impl> impl_;
+};
+
 /// Thread-safe.
 class RemoteServer {
  public:
@@ -116,6 +139,7 @@ class RemoteServer {
   absl::StatusOr<BodyList> ListBodies(const std::string& session);
   /// The file of a hull, by BodyShape::mesh_hash; at most kHullFileBytesMax. NotFound.
   absl::StatusOr<std::string> GetMesh(const std::string& session, std::uint64_t hash);
+  std::unique_ptr<InstrumentStream> StreamInstruments(const wire::InstrumentRequest& request);
   /// The bodies that the server knows by name.
   absl::StatusOr<std::vector<ListedPreset>> ListPresets();
 

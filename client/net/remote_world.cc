@@ -55,7 +55,7 @@ Method<v1::ReleaseLeaseRequest, v1::ReleaseLeaseResponse> MethodOf(const wire::R
 }
 
 template <typename Response>
-CommandAnswer AnswerOf(const Response& response) {
+absl::StatusOr<CommandAnswer> AnswerOf(const Response& response) {
   CommandAnswer answer;
   answer.tick = response.tick();
   if constexpr (requires { response.body_id(); }) answer.id = response.body_id();
@@ -63,6 +63,12 @@ CommandAnswer AnswerOf(const Response& response) {
   if constexpr (requires { response.region_id(); }) answer.id = response.region_id();
   if constexpr (requires { response.rope_id(); }) answer.id = response.rope_id();
   if constexpr (requires { response.lease(); }) answer.lease = response.lease();
+  if constexpr (requires { response.body(); }) {
+    if (!response.has_body()) return answer;
+    ONESEA_ASSIGN_OR_RETURN(answer.body, wire::FromProto(response.body(), ""));
+    answer.body->preset.clear();  // filled in: shape and mass must be there
+    ONESEA_RETURN_IF_ERROR(wire::ValidateBodyDescription("body.", *answer.body));
+  }
   return answer;
 }
 
@@ -106,6 +112,44 @@ absl::StatusOr<BodyList> RemoteServer::ListBodies(const std::string& session) {
     listed.driver = body.driver();
   }
   return list;
+}
+
+struct InstrumentStream::Impl {
+  std::shared_ptr<v1::OneSea::Stub> stub;
+  grpc::ClientContext context;
+  v1::StreamInstrumentsResponse response;
+  std::unique_ptr<grpc::ClientReader<v1::StreamInstrumentsResponse>> stream;
+};
+
+InstrumentStream::InstrumentStream(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+
+InstrumentStream::~InstrumentStream() {
+  if (impl_->stream == nullptr) return;
+  impl_->context.TryCancel();
+  impl_->stream->Finish();
+}
+
+absl::StatusOr<InstrumentReading> InstrumentStream::Receive() {
+  if (impl_->stream == nullptr) return absl::UnavailableError("the stream is over");
+  if (!impl_->stream->Read(&impl_->response)) {
+    const auto stream = std::move(impl_->stream);
+    ONESEA_RETURN_IF_ERROR(FromGrpc(stream->Finish()));
+    return absl::UnavailableError("the server ended the stream of readings");
+  }
+  const v1::StreamInstrumentsResponse& response = impl_->response;
+  return InstrumentReading{.tick = response.tick(),
+                           .values = {response.values().begin(), response.values().end()},
+                           .skipped_count = response.skipped_count()};
+}
+
+std::unique_ptr<InstrumentStream> RemoteServer::StreamInstruments(
+    const wire::InstrumentRequest& request) {
+  auto impl = std::make_unique<InstrumentStream::Impl>();
+  impl->stub = impl_->stub;
+  v1::StreamInstrumentsRequest proto;
+  wire::ToProto(request, &proto);
+  impl->stream = impl_->stub->StreamInstruments(&impl->context, proto);
+  return std::make_unique<InstrumentStream>(std::move(impl));
 }
 
 absl::StatusOr<std::vector<ListedPreset>> RemoteServer::ListPresets() {

@@ -28,7 +28,7 @@ struct BodyShape {
   Vec3d size_m{1.0, 1.0, 1.0};  ///< of a box
   double radius_m = 0.5;        ///< of round ones
   double length_m = 1.0;        ///< of a cylinder, and of a capsule without its ends
-  std::string mesh;             ///< of kMesh: a file's bytes, STL or OBJ; not streamed
+  std::string mesh{};           ///< of kMesh: a file's bytes, STL or OBJ; not streamed
   std::uint64_t mesh_hash = 0;  ///< of those bytes (MeshHash); what viewers ask for
   friend bool operator==(const BodyShape&, const BodyShape&) = default;
 };

@@ -1,5 +1,6 @@
 #include "common/wire/proto_world.h"
 
+#include <cmath>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
@@ -59,6 +60,16 @@ void SetInstrument(const Instrument& instrument, v1::Instrument* out) {
   } else {
     out->mutable_motion()->set_body_id(std::get<Motion>(instrument).body_id);
   }
+}
+
+// Elsewhere turns are normalised; here a length that drifts away is an integrator's fault, and it
+// should hear of it.
+absl::Status CheckTurn(const v1::StreamBodyPosesRequest::Pose& pose, int index) {
+  const v1::Turn& turn = pose.state().turn();
+  const Quaternion given{turn.w(), turn.x(), turn.y(), turn.z()};
+  if (given == Quaternion{0, 0, 0, 0}) return absl::OkStatus();
+  return CheckReal(absl::StrCat("poses[", index, "].state."), "turn (its length)",
+                   std::sqrt(Dot(given, given)), 0.99, 1.01);
 }
 
 }  // namespace
@@ -186,6 +197,7 @@ absl::StatusOr<PoseBatch> FromProto(const v1::StreamBodyPosesRequest& proto) {
       CheckSize("", "poses", static_cast<std::size_t>(proto.poses_size()), kBodiesMax));
   PoseBatch batch{proto.session(), proto.id(), {}};
   for (const auto& pose : proto.poses()) {
+    ONESEA_RETURN_IF_ERROR(CheckTurn(pose, static_cast<int>(batch.poses.size())));
     batch.poses.push_back({pose.body_id(), pose.lease(), FromProto(pose.state())});
   }
   ONESEA_RETURN_IF_ERROR(ValidatePoses(batch));
@@ -201,6 +213,13 @@ void ToProto(const PoseBatch& batch, v1::StreamBodyPosesRequest* out) {
     to->set_lease(pose.lease);
     ToProto(pose.state, to->mutable_state());
   }
+}
+
+void ToProto(const BodyWrench& wrench, v1::StreamBodyPosesResponse::Wrench* out) {
+  out->set_body_id(wrench.body_id);
+  ToProto(wrench.force_n, out->mutable_force_n());
+  ToProto(wrench.torque_n_m, out->mutable_torque_n_m());
+  out->mutable_added_mass()->Assign(wrench.added_mass.begin(), wrench.added_mass.end());
 }
 
 absl::StatusOr<InstrumentRequest> FromProto(const v1::StreamInstrumentsRequest& proto) {

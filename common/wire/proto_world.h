@@ -59,6 +59,7 @@ void ToProto(const ReleaseLease& command, v1::ReleaseLeaseRequest* out);
 /// Validated.
 absl::StatusOr<PoseBatch> FromProto(const v1::StreamBodyPosesRequest& proto);
 void ToProto(const PoseBatch& batch, v1::StreamBodyPosesRequest* out);
+void ToProto(const BodyWrench& wrench, v1::StreamBodyPosesResponse::Wrench* out);
 absl::StatusOr<InstrumentRequest> FromProto(const v1::StreamInstrumentsRequest& proto);
 void ToProto(const InstrumentRequest& request, v1::StreamInstrumentsRequest* out);
 

@@ -229,6 +229,12 @@ std::optional<Tick> QueryEngine::NoteAsked(Tick now) {
   return now + stride;
 }
 
+std::shared_ptr<const sea::SeaSnapshot> QueryEngine::SnapshotOf(
+    const std::shared_ptr<const sea::Components>& components, Tick tick) {
+  return snapshots_.Get(components, TimeOfTick(tick, components->recipe.tick_rate_hz),
+                        sea::QueryDetail::kHeight);
+}
+
 void QueryEngine::Prepare(const std::shared_ptr<const sea::Components>& components, Tick tick,
                           sea::QueryDetail detail) {
   snapshots_.Get(components, TimeOfTick(tick, components->recipe.tick_rate_hz), detail);

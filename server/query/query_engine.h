@@ -51,6 +51,10 @@ class QueryEngine {
   void Prepare(const std::shared_ptr<const sea::Components>& components, Tick tick,
                sea::QueryDetail detail);
 
+  /// Thread-safe. What answers for this tick are read from.
+  std::shared_ptr<const sea::SeaSnapshot> SnapshotOf(
+      const std::shared_ptr<const sea::Components>& components, Tick tick);
+
   std::int64_t snapshots_built() const { return snapshots_.built_count(); }
 
  private:

@@ -20,13 +20,12 @@ using WithQueryMethods = v1::OneSea::WithCallbackMethod_QueryPoints<
         v1::OneSea::WithCallbackMethod_GetStateHash<Base>>>>;
 
 template <class Base>
-using WithBodyMethods =
-    v1::OneSea::WithCallbackMethod_SpawnBody<v1::OneSea::WithCallbackMethod_RemoveBody<
-        v1::OneSea::WithCallbackMethod_DriveBody<v1::OneSea::WithCallbackMethod_ApplyImpulse<
-            v1::OneSea::WithCallbackMethod_TakeLease<v1::OneSea::WithCallbackMethod_ReleaseLease<
-                v1::OneSea::WithCallbackMethod_ListBodies<v1::OneSea::WithCallbackMethod_GetMesh<
-                    v1::OneSea::WithCallbackMethod_ListPresets<
-                        v1::OneSea::WithCallbackMethod_StreamBodyPoses<Base>>>>>>>>>>;
+using WithBodyMethods = v1::OneSea::WithCallbackMethod_SpawnBody<
+    v1::OneSea::WithCallbackMethod_RemoveBody<v1::OneSea::WithCallbackMethod_DriveBody<
+        v1::OneSea::WithCallbackMethod_ApplyImpulse<v1::OneSea::WithCallbackMethod_TakeLease<
+            v1::OneSea::WithCallbackMethod_ReleaseLease<v1::OneSea::WithCallbackMethod_ListBodies<
+                v1::OneSea::WithCallbackMethod_GetMesh<v1::OneSea::WithCallbackMethod_ListPresets<
+                    v1::OneSea::WithCallbackMethod_StreamBodyPoses<Base>>>>>>>>>>;
 
 template <class Base>
 using WithWaterMethods = v1::OneSea::WithCallbackMethod_Explode<

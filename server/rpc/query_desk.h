@@ -31,9 +31,9 @@ class QueryDesk {
   /// Lets go of the engines of sessions that are gone.
   void Prune();
 
- private:
   std::shared_ptr<QueryEngine> EngineOf(const std::shared_ptr<SessionLoop>& session);
 
+ private:
   // Has the snapshot of the tick that will be asked for next made before it is.
   void PrepareNext(const std::shared_ptr<SessionLoop>& session,
                    const std::shared_ptr<QueryEngine>& engine, Tick now, sea::QueryDetail detail);

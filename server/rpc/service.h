@@ -105,6 +105,10 @@ class OneSeaService final : public OneSeaMethods {
                                     v1::GetMeshResponse* response) override;
   grpc::ServerWriteReactor<v1::GetTerrainResponse>* GetTerrain(
       grpc::CallbackServerContext* context, const v1::GetTerrainRequest* request) override;
+  grpc::ServerBidiReactor<v1::StreamBodyPosesRequest, v1::StreamBodyPosesResponse>* StreamBodyPoses(
+      grpc::CallbackServerContext* context) override;
+  grpc::ServerWriteReactor<v1::StreamInstrumentsResponse>* StreamInstruments(
+      grpc::CallbackServerContext* context, const v1::StreamInstrumentsRequest* request) override;
 
  private:
   Registry& registry_;
@@ -112,6 +116,7 @@ class OneSeaService final : public OneSeaMethods {
   QueryDesk desk_;
   Worker builder_;  // components of new sessions and new weather
   Worker queries_;  // many points
+  Worker instruments_;
 };
 
 }  // namespace onesea::server

@@ -4,12 +4,13 @@
 
 #include "absl/strings/str_cat.h"
 #include "common/base/check.h"
-#include "common/wire/bounds.h"
 #include "common/wire/proto_body.h"
 #include "common/wire/proto_world.h"
 #include "server/rpc/answer.h"
 #include "server/rpc/service.h"
 #include "server/rpc/status_map.h"
+#include "server/rpc/stream_instruments.h"
+#include "server/rpc/stream_poses.h"
 #include "server/rpc/terrain_writer.h"
 #include "server/world/body_presets.h"
 
@@ -59,6 +60,7 @@ grpc::ServerUnaryReactor* OneSeaService::SpawnBody(grpc::CallbackServerContext* 
         [](const CommandResult& result, v1::SpawnBodyResponse* out) {
           out->set_body_id(result.id);
           out->set_lease(result.lease);
+          wire::ToProto(result.body->description, out->mutable_body());
         });
   });
   if (!posted.ok()) reactor->Finish(ToGrpc(posted));
@@ -182,13 +184,13 @@ grpc::ServerUnaryReactor* OneSeaService::ListPresets(grpc::CallbackServerContext
                                                      const v1::ListPresetsRequest* /*request*/,
                                                      v1::ListPresetsResponse* response) {
   for (const world::BodyPresetEntry& entry : world::BodyPresets()) {
-    const absl::StatusOr<wire::BodyDescription> body = world::BodyPreset(wire::Text(entry.name));
+    const absl::StatusOr<wire::BodyDescription> body = world::BodyPreset(entry.name);
     ONESEA_CHECK(body.ok()) << body.status().ToString();
     v1::ListPresetsResponse::Preset* out = response->add_presets();
     out->set_name(entry.name.data(), entry.name.size());
     out->set_summary(entry.summary.data(), entry.summary.size());
     wire::ToProto(*body, out->mutable_body());
-    if (out->body().shape().has_mesh()) {
+    if (body->shape->kind == wire::ShapeKind::kMesh) {
       out->mutable_body()->mutable_shape()->mutable_mesh()->clear_file();
     }
   }
@@ -217,6 +219,18 @@ grpc::ServerWriteReactor<v1::GetTerrainResponse>* OneSeaService::GetTerrain(
         absl::NotFoundError(absl::StrCat("session: '", (*session)->name(), "' has no terrain")));
   }
   return new TerrainWriter((*session)->terrain());
+}
+
+grpc::ServerBidiReactor<v1::StreamBodyPosesRequest, v1::StreamBodyPosesResponse>*
+OneSeaService::StreamBodyPoses(grpc::CallbackServerContext* /*context*/) {
+  return new StreamPosesReactor(registry_);
+}
+
+grpc::ServerWriteReactor<v1::StreamInstrumentsResponse>* OneSeaService::StreamInstruments(
+    grpc::CallbackServerContext* /*context*/, const v1::StreamInstrumentsRequest* request) {
+  auto* reactor = new StreamInstrumentsReactor(registry_, desk_, instruments_);
+  StreamInstrumentsReactor::Begin(reactor, *request);
+  return reactor;
 }
 
 }  // namespace onesea::server

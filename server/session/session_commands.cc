@@ -73,6 +73,7 @@ absl::StatusOr<CommandResult> SessionRunner::Act(const CommandRequest& request,
     ONESEA_ASSIGN_OR_RETURN(result.id, world.Spawn(*request.body, spawn.start));
     ONESEA_ASSIGN_OR_RETURN(result.lease,
                             leases_.Take(result.id, "", spawn.body.owner, kSpawnLeaseS, now_ns));
+    result.body = request.body;
     return result;
   }
   if (const auto* take = std::get_if<wire::TakeLease>(&request.command)) {
@@ -93,12 +94,17 @@ absl::StatusOr<CommandResult> SessionRunner::Act(const CommandRequest& request,
   return result;
 }
 
-absl::StatusOr<wire::BodyWrench> SessionRunner::SetPose(const wire::BodyPose& pose,
-                                                        std::int64_t now_ns) {
-  if (session_.world().HasBody(pose.body_id)) {
+absl::StatusOr<PosesResult> SessionRunner::SetPoses(std::span<const wire::BodyPose> poses,
+                                                    std::int64_t now_ns) {
+  world::World& world = session_.world();
+  for (const wire::BodyPose& pose : poses) {
+    if (!world.HasBody(pose.body_id)) continue;  // the world says so
     ONESEA_RETURN_IF_ERROR(leases_.Use(pose.body_id, pose.lease, now_ns));
   }
-  return session_.world().SetPose(pose);
+  PosesResult result;
+  result.tick = session_.tick();
+  ONESEA_ASSIGN_OR_RETURN(result.wrenches, world.SetPoses(poses, session_.components()));
+  return result;
 }
 
 void SessionRunner::HandOver(Deferred& deferred) {

@@ -20,6 +20,8 @@ constexpr std::int64_t kWaitMinNs = 500'000;
 // sea before.
 constexpr double kWeatherLeadS = 0.5;
 constexpr int kWeatherAttempts = 4;
+// Streams keep at most a few each under way.
+constexpr std::size_t kPosesWaitingMax = 1024;
 
 std::shared_ptr<const wire::EncodedTerrain> EncodedTerrainOf(const world::World* world) {
   if (world == nullptr || world->terrain() == nullptr) return nullptr;
@@ -54,20 +56,56 @@ SessionLoop::~SessionLoop() { Close("the server stops"); }
 void SessionLoop::Run() {
   SessionRunner::Deferred deferred;
   while (true) {
+    std::int64_t wake_ns = 0;
     {
       absl::MutexLock lock(&mutex_);
       if (closed_) return;
-      const std::int64_t wake_ns = runner_.Advance(clock_.MonotonicNs(), deferred);
+      wake_ns = runner_.Advance(clock_.MonotonicNs(), deferred);
       PublishView();
-      const std::int64_t now_ns = clock_.MonotonicNs();
-      if (deferred.empty() && wake_ns > now_ns) {
-        const auto wait = absl::Nanoseconds(std::max(wake_ns - now_ns, kWaitMinNs));
-        changed_.WaitWithTimeout(&mutex_, wait);
-      }
     }
     RunAll(deferred);
     deferred.clear();
+    TakePoses(wake_ns);
+    WaitUntil(wake_ns);
   }
+}
+
+// At least one lot, so that a session that can't keep up answers too.
+void SessionLoop::TakePoses(std::int64_t until_ns) {
+  while (std::optional<WaitingPoses> next = NextPoses()) {
+    absl::StatusOr<PosesResult> result;
+    {
+      absl::MutexLock lock(&mutex_);
+      const std::int64_t now_ns = clock_.MonotonicNs();
+      const absl::Status open = OpenStatus();
+      result = open.ok() ? runner_.SetPoses(next->poses, now_ns) : open;
+    }
+    next->done(std::move(result));
+    if (clock_.MonotonicNs() >= until_ns) return;
+  }
+}
+
+std::optional<SessionLoop::WaitingPoses> SessionLoop::NextPoses() {
+  absl::MutexLock lock(&wake_mutex_);
+  if (poses_.empty()) return std::nullopt;
+  WaitingPoses next = std::move(poses_.front());
+  poses_.pop_front();
+  return next;
+}
+
+void SessionLoop::WaitUntil(std::int64_t wake_ns) {
+  const std::int64_t span_ns = wake_ns - clock_.MonotonicNs();
+  absl::MutexLock lock(&wake_mutex_);
+  if (span_ns > 0 && !woken_ && poses_.empty()) {
+    changed_.WaitWithTimeout(&wake_mutex_, absl::Nanoseconds(std::max(span_ns, kWaitMinNs)));
+  }
+  woken_ = false;
+}
+
+void SessionLoop::Wake() {
+  absl::MutexLock lock(&wake_mutex_);
+  woken_ = true;
+  changed_.Signal();
 }
 
 void SessionLoop::PublishView() {
@@ -79,10 +117,11 @@ void SessionLoop::PublishView() {
   }
 }
 
-absl::Status SessionLoop::OpenStatus() const {
-  if (!closed_) return absl::OkStatus();
+absl::Status SessionLoop::EndedStatus() const {
   return absl::NotFoundError(absl::StrCat("session: '", name_, "' has ended"));
 }
+
+absl::Status SessionLoop::OpenStatus() const { return closed_ ? EndedStatus() : absl::OkStatus(); }
 
 SessionView SessionLoop::View() const {
   absl::MutexLock lock(&view_mutex_);
@@ -158,7 +197,7 @@ absl::StatusOr<Tick> SessionLoop::Hold() {
   absl::MutexLock lock(&mutex_);
   ONESEA_RETURN_IF_ERROR(OpenStatus());
   ONESEA_RETURN_IF_ERROR(runner_.Hold(clock_.MonotonicNs()));
-  changed_.Signal();
+  Wake();
   return runner_.session().tick();
 }
 
@@ -170,7 +209,7 @@ absl::StatusOr<Tick> SessionLoop::Resume() {
     ONESEA_RETURN_IF_ERROR(OpenStatus());
     ONESEA_RETURN_IF_ERROR(runner_.Resume(clock_.MonotonicNs(), deferred));
     tick = runner_.session().tick();
-    changed_.Signal();
+    Wake();
   }
   RunAll(deferred);
   return tick;
@@ -180,7 +219,7 @@ absl::Status SessionLoop::SetSpeed(double speed) {
   absl::MutexLock lock(&mutex_);
   ONESEA_RETURN_IF_ERROR(OpenStatus());
   ONESEA_RETURN_IF_ERROR(runner_.SetSpeed(speed, clock_.MonotonicNs()));
-  changed_.Signal();
+  Wake();
   return absl::OkStatus();
 }
 
@@ -193,7 +232,7 @@ std::uint64_t SessionLoop::Step(const StepRequest& request, StepDone done) {
       deferred.push_back([done, open] { done(open); });
     } else {
       ticket = runner_.Step(request, std::move(done), clock_.MonotonicNs(), deferred);
-      changed_.Signal();
+      Wake();
     }
   }
   RunAll(deferred);
@@ -225,16 +264,27 @@ void SessionLoop::Command(wire::CommandHeader header, wire::WorldCommand command
     } else {
       runner_.Command(std::move(request), std::move(done), clock_.MonotonicNs(), deferred);
       PublishView();
-      changed_.Signal();
+      Wake();
     }
   }
   RunAll(deferred);
 }
 
-absl::StatusOr<wire::BodyWrench> SessionLoop::SetPose(const wire::BodyPose& pose) {
-  absl::MutexLock lock(&mutex_);
-  ONESEA_RETURN_IF_ERROR(OpenStatus());
-  return runner_.SetPose(pose, clock_.MonotonicNs());
+void SessionLoop::SetPoses(std::vector<wire::BodyPose> poses, PosesDone done) {
+  absl::Status refused;
+  {
+    absl::MutexLock lock(&wake_mutex_);
+    if (poses_refused_) {
+      refused = EndedStatus();
+    } else if (poses_.size() >= kPosesWaitingMax) {
+      refused = absl::ResourceExhaustedError(
+          absl::StrCat(kPosesWaitingMax, " requests with poses wait already"));
+    } else {
+      poses_.push_back({std::move(poses), std::move(done)});
+      changed_.Signal();
+    }
+  }
+  if (!refused.ok()) done(refused);
 }
 
 std::shared_ptr<const std::string> SessionLoop::FindMesh(std::uint64_t hash) const {
@@ -254,7 +304,7 @@ void SessionLoop::AddObserver(std::shared_ptr<SessionObserver> observer) {
     return;
   }
   runner_.AddObserver(std::move(observer));
-  changed_.Signal();
+  Wake();
 }
 
 void SessionLoop::RemoveObserver(const SessionObserver* observer) {
@@ -276,9 +326,16 @@ void SessionLoop::Close(std::string_view reason) {
     absl::MutexLock lock(&mutex_);
     if (!closed_) runner_.Close(reason, deferred);
     closed_ = true;
-    changed_.Signal();
+    Wake();
+  }
+  std::deque<WaitingPoses> unheard;
+  {
+    absl::MutexLock lock(&wake_mutex_);
+    poses_refused_ = true;
+    unheard.swap(poses_);
   }
   RunAll(deferred);
+  for (const WaitingPoses& poses : unheard) poses.done(EndedStatus());
   absl::MutexLock lock(&join_mutex_);
   if (thread_.joinable()) thread_.join();
 }

@@ -2,8 +2,11 @@
 
 #include <atomic>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -46,6 +49,8 @@ struct StateHashes {
   std::uint64_t state_hash = 0;
   std::uint64_t component_hash = 0;
 };
+
+using PosesDone = std::function<void(absl::StatusOr<PosesResult>)>;
 
 /// Thread-safe. Commands take effect at once, between two ticks; after Close() they answer
 /// NotFound.
@@ -94,8 +99,10 @@ class SessionLoop {
   /// this thread. Errors: InvalidArgument, NotFound, PermissionDenied (another's lease),
   /// FailedPrecondition (the tick went by), ResourceExhausted.
   void Command(wire::CommandHeader header, wire::WorldCommand command, CommandDone done);
-  /// As World::SetPose; PermissionDenied.
-  absl::StatusOr<wire::BodyWrench> SetPose(const wire::BodyPose& pose);
+  /// As SessionRunner::SetPoses, between two ticks on the session's thread, so that nobody waits
+  /// here; ticks that are due come first. `done` is called there, or here for what is refused at
+  /// once: NotFound, or ResourceExhausted with kPosesWaitingMax ahead.
+  void SetPoses(std::vector<wire::BodyPose> poses, PosesDone done);
   /// The hull's file of a body that is here, by its hash; null: none.
   std::shared_ptr<const std::string> FindMesh(std::uint64_t hash) const;
   /// Who holds the lease of a body; empty: nobody.
@@ -116,8 +123,18 @@ class SessionLoop {
   void Close(std::string_view reason);
 
  private:
+  struct WaitingPoses {
+    std::vector<wire::BodyPose> poses;
+    PosesDone done;
+  };
+
   void Run();
+  void TakePoses(std::int64_t until_ns);
+  void WaitUntil(std::int64_t wake_ns);
+  void Wake();
+  std::optional<WaitingPoses> NextPoses();
   void PublishView() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  absl::Status EndedStatus() const;
   absl::Status OpenStatus() const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   Tick DefaultStartTick() const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
 
@@ -127,12 +144,17 @@ class SessionLoop {
   const std::shared_ptr<const wire::EncodedTerrain> terrain_;
   const std::vector<wire::WaterLevel> water_level_;
   absl::Mutex weather_mutex_ ABSL_ACQUIRED_BEFORE(mutex_);  // one change of weather at a time
-  mutable absl::Mutex mutex_ ABSL_ACQUIRED_BEFORE(view_mutex_);
-  absl::CondVar changed_;
+  mutable absl::Mutex mutex_ ABSL_ACQUIRED_BEFORE(view_mutex_, wake_mutex_);
   SessionRunner runner_ ABSL_GUARDED_BY(mutex_);
   bool closed_ ABSL_GUARDED_BY(mutex_) = false;
   mutable absl::Mutex view_mutex_;
   SessionView view_ ABSL_GUARDED_BY(view_mutex_);
+  // Apart from `mutex_`, which is held for as long as a tick takes.
+  absl::Mutex wake_mutex_;
+  absl::CondVar changed_;
+  bool woken_ ABSL_GUARDED_BY(wake_mutex_) = false;
+  bool poses_refused_ ABSL_GUARDED_BY(wake_mutex_) = false;  // closed
+  std::deque<WaitingPoses> poses_ ABSL_GUARDED_BY(wake_mutex_);
   std::atomic<int> viewer_count_{0};
   absl::Mutex join_mutex_;
   std::thread thread_;

@@ -22,6 +22,7 @@ struct TickEvent {
   const wire::ProbeHeights* probes =
       nullptr;  ///< set about once a second at a stamp instant; valid during the call
   std::shared_ptr<const world::WorldView> world;  ///< at stamp.tick
+  std::shared_ptr<const sea::Components> components;
 };
 
 /// Calls of one session come one at a time and in order, with the session's lock held: return

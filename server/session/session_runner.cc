@@ -129,6 +129,7 @@ void SessionRunner::Tell(std::int64_t due_ns, bool stream_instant) {
   event.stamp = StampAt(due_ns);
   event.stream_instant = stream_instant;
   event.world = session_.world().view();
+  event.components = session_.components();
   event.stamp_instant = std::exchange(stamp_owed_, false);
   if (event.stamp_instant && !observers_.empty() && std::exchange(probes_owed_, false)) {
     SampleProbes();

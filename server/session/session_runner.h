@@ -4,6 +4,7 @@
 #include <deque>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -18,6 +19,12 @@
 /// Everything that a session's thread does, without the thread: the time is an argument, so tests
 /// need no sleeping. Not thread-safe; SessionLoop guards it.
 namespace onesea::server {
+
+/// What streamed poses met.
+struct PosesResult {
+  Tick tick = 0;  ///< of the water
+  std::vector<wire::BodyWrench> wrenches;
+};
 
 class SessionRunner {
  public:
@@ -42,8 +49,8 @@ class SessionRunner {
   void CancelStep(std::uint64_t ticket, Deferred& deferred);
   /// As SessionLoop's.
   void Command(CommandRequest request, CommandDone done, std::int64_t now_ns, Deferred& deferred);
-  /// As World::SetPose, for whoever shows the lease of the body.
-  absl::StatusOr<wire::BodyWrench> SetPose(const wire::BodyPose& pose, std::int64_t now_ns);
+  /// As World::SetPoses, for whoever shows the leases of the bodies; PermissionDenied.
+  absl::StatusOr<PosesResult> SetPoses(std::span<const wire::BodyPose> poses, std::int64_t now_ns);
   std::string HolderOf(std::uint32_t body_id, std::int64_t now_ns) const {
     return leases_.Holder(body_id, now_ns);
   }

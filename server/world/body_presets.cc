@@ -160,7 +160,7 @@ absl::StatusOr<BodyDescription> BodyPreset(absl::string_view name) {
       body.name = std::string(name);
       return body;
     }
-    absl::StrAppend(&known, known.empty() ? "" : ", ", std::string(entry.name));
+    absl::StrAppend(&known, known.empty() ? "" : ", ", entry.name);
   }
   return absl::NotFoundError(
       absl::StrCat("preset: there is no body \"", name, "\"; there are ", known));

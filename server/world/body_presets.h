@@ -1,6 +1,5 @@
 #pragma once
 
-#include <string_view>
 #include <vector>
 
 #include "absl/status/statusor.h"
@@ -12,8 +11,8 @@
 namespace onesea::world {
 
 struct BodyPresetEntry {
-  std::string_view name;
-  std::string_view summary;  ///< one line for people
+  absl::string_view name;
+  absl::string_view summary;  ///< one line for people
 };
 std::vector<BodyPresetEntry> BodyPresets();
 

@@ -23,7 +23,7 @@ namespace {
 
 using wire::CheckVector;
 
-absl::Status CheckMotion(const Pose& pose, Vec3d velocity_m_per_s, Vec3d spin_rad_per_s) {
+absl::Status IsMotion(const Pose& pose, Vec3d velocity_m_per_s, Vec3d spin_rad_per_s) {
   for (const absl::Status& s :
        {CheckVector("", "pose.centre_m", pose.centre_m, kQueryCoordinateMaxM),
         CheckVector("", "velocity_m_per_s", velocity_m_per_s, kBodySpeedMaxMPerS),
@@ -49,7 +49,7 @@ absl::StatusOr<BodyId> RigidBodies::Add(std::shared_ptr<const BodyModel> model,
     return absl::ResourceExhaustedError(
         absl::StrCat("the session has ", kBodiesMax, " bodies, the most it can"));
   }
-  if (absl::Status s = CheckMotion(state.pose, state.velocity_m_per_s, state.spin_rad_per_s);
+  if (absl::Status s = IsMotion(state.pose, state.velocity_m_per_s, state.spin_rad_per_s);
       !s.ok()) {
     return s;
   }
@@ -105,14 +105,21 @@ absl::Status RigidBodies::ApplyImpulse(BodyId id, Vec3d impulse_n_s, Vec3d place
   return absl::OkStatus();
 }
 
+absl::Status RigidBodies::CheckMotion(BodyId id, const Pose& pose, Vec3d velocity_m_per_s,
+                                      Vec3d spin_rad_per_s) const {
+  const BodyModel* model = FindModel(id);
+  if (model == nullptr) return NoBody(id);
+  if (model->spec.control != BodyControl::kByOwner) {
+    return absl::FailedPreconditionError(
+        absl::StrCat("body ", id, " is integrated here; spawn it with control CONTROL_BY_OWNER"));
+  }
+  return IsMotion(pose, velocity_m_per_s, spin_rad_per_s);
+}
+
 absl::Status RigidBodies::SetMotion(BodyId id, const Pose& pose, Vec3d velocity_m_per_s,
                                     Vec3d spin_rad_per_s) {
+  if (absl::Status s = CheckMotion(id, pose, velocity_m_per_s, spin_rad_per_s); !s.ok()) return s;
   SteppedBody* entry = Find(id);
-  if (entry == nullptr) return NoBody(id);
-  if (entry->model->spec.control != BodyControl::kByOwner) {
-    return absl::FailedPreconditionError(absl::StrCat("body ", id, " is integrated here"));
-  }
-  if (absl::Status s = CheckMotion(pose, velocity_m_per_s, spin_rad_per_s); !s.ok()) return s;
   entry->state.pose = {pose.centre_m, Normalised(pose.turn)};
   entry->state.velocity_m_per_s = velocity_m_per_s;
   entry->state.spin_rad_per_s = spin_rad_per_s;

@@ -69,6 +69,8 @@ class RigidBodies {
   /// At a place in the world; at most kBodyForceMaxN during a second.
   absl::Status ApplyImpulse(BodyId id, Vec3d impulse_n_s, Vec3d place_m);
   /// Of a body that its owner integrates. FailedPrecondition for others.
+  absl::Status CheckMotion(BodyId id, const Pose& pose, Vec3d velocity_m_per_s,
+                           Vec3d spin_rad_per_s) const;
   absl::Status SetMotion(BodyId id, const Pose& pose, Vec3d velocity_m_per_s, Vec3d spin_rad_per_s);
 
   /// NotFound for an unknown body, InvalidArgument also for ends further apart than kRopeStretchMax

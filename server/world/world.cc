@@ -65,6 +65,8 @@ void World::Step(Tick tick, const std::shared_ptr<const sea::Components>& compon
   Done(WorldStage::kRegionsPlaced);
   SampleSea(tick_, components);
   Done(WorldStage::kSeaMade);
+  water_.Clear();
+  for (const auto& [id, body] : bodies_) AddWaterUnder(body);
   FillWater();
   Done(WorldStage::kWaterSampled);
   PressBodies();
@@ -132,7 +134,9 @@ void World::SampleSea(Tick tick, const std::shared_ptr<const sea::Components>& c
     sea_ = nullptr;
     builder_ = std::make_unique<sea::SnapshotBuilder>(components, options_.transform, kSeaCoarser);
   }
+  if (sea_ != nullptr && sea_tick_ == tick) return;  // as SetPoses() left it
   const SimTime time = TimeOfTick(tick, options_.tick_rate_hz);
+  sea_tick_ = tick;
   sea_ = builder_->At(time, sea::QueryDetail::kVelocity, std::exchange(sea_, nullptr));
   // The means move with the weather only, which takes seconds.
   if (wavenumbers_.empty() || tick % options_.tick_rate_hz == 0 ||
@@ -154,13 +158,13 @@ void World::FloatNewBodies() {
   }
 }
 
+void World::AddWaterUnder(const Body& body) {
+  const Vec3d centre_m = body.stepped->state.pose.centre_m;
+  water_.Add({centre_m.x, centre_m.y}, body.model->hull.radius_m(),
+             body.model->spec.radiation == Radiation::kCoefficients);
+}
+
 void World::FillWater() {
-  water_.Clear();
-  for (const auto& [id, body] : bodies_) {
-    const BodyState& state = body.stepped->state;
-    water_.Add({state.pose.centre_m.x, state.pose.centre_m.y}, body.model->hull.radius_m(),
-               body.model->spec.radiation == Radiation::kCoefficients);
-  }
   const IncidentSea sea{.waves = sea_.get(),
                         .wavenumber_rad_per_m = wavenumbers_,
                         .level_m = LevelAt(TimeOfTick(tick_, options_.tick_rate_hz)),

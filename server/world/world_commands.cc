@@ -48,7 +48,9 @@ absl::StatusOr<PreparedBody> PrepareBody(wire::BodyDescription given) {
   body.info = InfoOf(description, *body.model);
   if (!description.shape->mesh.empty()) {
     body.mesh = std::make_shared<const std::string>(std::move(description.shape->mesh));
+    description.shape->mesh.clear();
   }
+  body.description = std::move(description);
   return body;
 }
 
@@ -230,21 +232,6 @@ absl::StatusOr<std::uint32_t> World::Do(const wire::AddRope& command) {
 absl::StatusOr<std::uint32_t> World::Do(const wire::RemoveRope& command) {
   ONESEA_RETURN_IF_ERROR(rigid_.RemoveRope(command.rope_id));
   return command.rope_id;
-}
-
-absl::StatusOr<wire::BodyWrench> World::SetPose(const wire::BodyPose& pose) {
-  if (!HasBody(pose.body_id)) return NoBody(pose.body_id);
-  const BodyState state = FromWire(pose.state);
-  ONESEA_RETURN_IF_ERROR(
-      rigid_.SetMotion(pose.body_id, state.pose, state.velocity_m_per_s, state.spin_rad_per_s));
-  wire::BodyWrench wrench;
-  wrench.body_id = pose.body_id;
-  // Of the last step: the water of the present tick is sampled when the tick is made.
-  const BodyLoads& loads = *rigid_.FindLoads(pose.body_id);
-  const Mat3d turn = ToMatrix(state.pose.turn);
-  wrench.force_n = turn * (loads.wet.pressure_force_n + loads.wet.drag_force_n);
-  wrench.torque_n_m = turn * (loads.wet.pressure_torque_n_m + loads.wet.drag_torque_n_m);
-  return wrench;
 }
 
 }  // namespace onesea::world

@@ -53,22 +53,17 @@ std::shared_ptr<const sea::Terrain> Harbour() {
 
 // Of ten bodies: a work boat, two motor boats, three buoys, three crates, a raft.
 const char* KindOf(int n) {
-  constexpr const char* kKinds[] = {"work-boat", "motor-boat", "motor-boat", "buoy",  "buoy",
-                                    "buoy",      "crate",      "crate",      "crate", "raft"};
+  constexpr const char* kKinds[] = {"work-boat", "boat",  "boat",  "buoy",  "buoy",
+                                    "buoy",      "crate", "crate", "crate", "raft"};
   return kKinds[n % 10];
 }
 
 PreparedBody Prepared(const char* preset) {
-  auto spec = BodyPreset(preset);
-  ONESEA_CHECK(spec.ok()) << spec.status();
-  auto model = MakeBodyModel(*std::move(spec));
-  ONESEA_CHECK(model.ok()) << model.status();
-  PreparedBody body;
-  body.model = *model;
-  body.info.name = preset;
-  body.info.mass_kg = body.model->spec.mass_kg;
-  body.info.centre_of_mass_m = body.model->centre_of_mass_m;
-  return body;
+  wire::BodyDescription named;
+  named.preset = preset;
+  auto body = PrepareBody(named);
+  ONESEA_CHECK(body.ok()) << body.status();
+  return *std::move(body);
 }
 
 // What a region is and the place in the harbour where it and its bodies begin.

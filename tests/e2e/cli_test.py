@@ -1,11 +1,14 @@
 """The real `onesea` command against a real server: text, --json, help as printed, and nonsense."""
 
+import csv
 import json
 import math
+import pathlib
 import re
 import shlex
 import signal
 import subprocess
+import tempfile
 import unittest
 
 from onesea_process import BIN, ROOT, Server, free_port
@@ -110,6 +113,106 @@ class Commands(unittest.TestCase):
         self.assertEqual(twice.returncode, 1)
         SERVER.ask("delete", "tank-7")
         self.assertEqual(SERVER.onesea("delete", "tank-7").returncode, 1)
+
+
+class World(unittest.TestCase):
+    """A session of its own: bodies, walls, regions, instruments."""
+
+    @classmethod
+    def setUpClass(cls):
+        SERVER.ask("create", "deploy/sessions/calm-swell.textproto", "--session", "tank-world")
+        SERVER.ask("hold", "--session", "tank-world")
+
+    @classmethod
+    def tearDownClass(cls):
+        SERVER.onesea("delete", "tank-world")
+
+    def ask(self, *words):
+        return SERVER.ask(*words, "--session", "tank-world")
+
+    def body(self, number):
+        return next(body for body in self.ask("bodies")["bodies"] if body["id"] == number)
+
+    def test_an_impulse_moves_a_crate_by_its_share(self):
+        crate = self.ask("spawn", "crate", "--at", "60,60", "--no-wake")["id"]
+        self.assertEqual(self.body(crate)["speed_m_per_s"], 0.0)
+        self.ask("impulse", str(crate), "--by", "120,0,0")
+        self.ask("step", "1")
+        # 240 kg and some water that moves along.
+        self.assertGreater(self.body(crate)["speed_m_per_s"], 0.2)
+        self.assertLess(self.body(crate)["speed_m_per_s"], 0.5)
+        self.ask("remove", str(crate))
+
+    def test_presets_are_what_spawn_takes(self):
+        for preset in self.ask("presets")["presets"]:
+            made = self.ask("spawn", preset["name"], "--at", "-80,40", "--no-wake")
+            self.assertEqual(self.body(made["id"])["name"], preset["name"])
+            self.ask("remove", str(made["id"]))
+
+    def test_walls_and_regions_come_and_go(self):
+        wall = self.ask("obstacle", "--corner", "0,0", "--corner", "4,0", "--corner", "4,4")["id"]
+        self.assertEqual(self.ask("obstacle", "--corner", "0,0", "--corner", "4,0", "--corner", "0,4", "--replace",
+                                  str(wall))["id"], wall)
+        self.ask("obstacle", "--remove", str(wall))
+        region = self.ask("region", "--at", "0,0", "--cells", "64x96", "--cell", "0.25", "--solver", "wave-equation",
+                          "--damping", "0.1")["id"]
+        self.ask("region", "--remove", str(region))
+        for words in (["obstacle", "--remove", str(wall)], ["region", "--remove", str(region)],
+                      ["region", "--follow", "999"]):
+            gone = SERVER.onesea(*words, "--session", "tank-world")
+            self.assertEqual(gone.returncode, 1, words)
+            self.assertIn("there is no", gone.stderr)
+
+    def test_instruments_write_csv(self):
+        buoy = self.ask("spawn", "buoy", "--at", "20,0", "--no-wake")["id"]
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "readings.csv"
+            reading = subprocess.Popen(
+                [BIN / "onesea", "instruments", "--gauge", "3,4", "--pressure", "0,0,0,-6", "--imu", f"{buoy},0,0,0",
+                 "--motion", str(buoy), "--every", "6", "--seconds", "1", "--csv", str(path), "--json", "--session",
+                 "tank-world"], stdout=subprocess.PIPE, text=True, cwd=ROOT, env=SERVER.environment())
+            while reading.poll() is None:  # whoever reads comes when it likes; the sea goes on until it has enough
+                self.ask("step", "6")
+            told = json.loads(reading.stdout.read())
+            reading.stdout.close()
+            self.assertEqual(reading.returncode, 0)
+            with open(path, newline="") as file:
+                rows = list(csv.reader(file))
+        header, rows = rows[0], rows[1:]
+        self.assertEqual(header[:5], ["tick", "time [s]", "skipped", "gauge 3 4 height [m]", "pressure 0 0 0 -6 [Pa]"])
+        self.assertEqual(len(header), 3 + 1 + 1 + 10 + 13)
+        self.assertEqual(told["readings"], len(rows))
+        self.assertEqual(len(rows) + sum(int(row[2]) for row in rows) - int(rows[0][2]), 11)
+        for row in rows:
+            self.assertEqual(len(row), len(header))
+            self.assertEqual(int(row[0]) % 6, 0)
+            asked = self.ask("query", "--at", "3,4", "--time", row[1])["points"][0]["height_m"]
+            self.assertAlmostEqual(float(row[3]), asked, delta=1e-5)
+            self.assertAlmostEqual(float(row[4]), 1025 * 9.81 * 6, delta=0.2 * 1025 * 9.81)
+            self.assertAlmostEqual(float(row[header.index(f"imu {buoy} 0 0 0 force z [m/s2]")]), 9.81, delta=2.0)
+            self.assertAlmostEqual(float(row[header.index(f"motion {buoy} x [m]")]), 20.0, delta=2.0)
+        self.ask("remove", str(buoy))
+
+    def test_nonsense(self):
+        for code, words, says in (
+                (2, ["impulse", "1"], "--by"), (2, ["impulse", "1", "--by", "1,2"], "must be X,Y,Z"),
+                (2, ["impulse", "1", "--by", "1,nan,2"], "Y of --by"), (1, ["impulse", "99", "--by", "1,0,0"], "99"),
+                (2, ["obstacle"], "--corner"), (2, ["obstacle", "--corner", "0,0", "--corner", "1,1"], "three times"),
+                (1, ["obstacle", "--corner", "0,0", "--corner", "4,4", "--corner", "4,0", "--corner", "0,3"], "cross"),
+                (2, ["obstacle", "--remove", "0"], "--remove"),
+                (2, ["region"], "--at"), (2, ["region", "--at", "0,0", "--cells", "1x2x3"], "COLUMNSxROWS"),
+                (1, ["region", "--at", "0,0", "--cells", "100"], "multiple of 32"),
+                (2, ["region", "--at", "0,0", "--solver", "magic"], "--solver"),
+                (2, ["instruments"], "--gauge"), (2, ["instruments", "--gauge", "0"], "--gauge"),
+                (2, ["instruments", "--imu", "0,0,0,0"], "--imu"),
+                (2, ["instruments", "--imu", "1.5,0,0,0"], "--imu"),
+                (1, ["instruments", "--motion", "99"], "there is no body 99"),
+                (1, ["instruments", "--gauge", "0,0", "--csv", "/no/such/folder/x.csv"], "/no/such/folder/x.csv"),
+                (1, ["spawn", "submarine", "--at", "0,0"], "work-boat")):
+            finished = SERVER.onesea(*words, "--session", "tank-world")
+            self.assertEqual(finished.returncode, code, f"{words}: {finished.stderr}")
+            self.assertEqual(len(finished.stderr.splitlines()), 1, finished.stderr)
+            self.assertIn(says, finished.stderr, words)
 
 
 class Refusals(unittest.TestCase):

@@ -144,6 +144,10 @@ TEST_F(WorldMethodsTest, APresetIsNamedAndItsHullIsFetchedByHash) {
   ASSERT_TRUE(Call(&Stub::GetMesh, ask, &mesh).ok());
   EXPECT_EQ(wire::MeshHash(mesh.file()), ask.hash());
   EXPECT_TRUE(Drive(boat.body_id(), boat.lease(), "drive").ok());  // with the preset's motor
+  EXPECT_EQ(boat.body().thrusters_size(), 1);
+  EXPECT_EQ(boat.body().mass_kg(), 600);
+  EXPECT_EQ(boat.body().shape().mesh().hash(), ask.hash());
+  EXPECT_TRUE(boat.body().shape().mesh().file().empty());
 
   v1::SpawnBodyResponse none;
   const grpc::Status refused = SpawnPreset("other", "submarine", &none);

@@ -9,34 +9,15 @@ program generates it once.
 """
 
 import argparse
-import importlib
-import pathlib
 import queue
-import shutil
-import subprocess
 import sys
-import tempfile
 
 import grpc
 
-PROTO_ROOT = pathlib.Path(__file__).resolve().parents[3] / "proto"
+import onesea_messages
+
 ACK_EVERY = 4  # frames; the server stops after `credit` frames that nobody acknowledged
 CREDIT = 8
-
-
-def load_messages(folder):
-    """Generates onesea/v1/*_pb2*.py into `folder` and imports the two modules that a client needs."""
-    protos = sorted(str(path) for path in PROTO_ROOT.glob("onesea/v1/*.proto"))
-    outputs = [f"-I{PROTO_ROOT}", f"--python_out={folder}", f"--grpc_python_out={folder}"]
-    plugin = shutil.which("grpc_python_plugin")
-    if shutil.which("protoc") and plugin:
-        command = ["protoc", f"--plugin=protoc-gen-grpc_python={plugin}"]
-    else:
-        command = [sys.executable, "-m", "grpc_tools.protoc"]
-    subprocess.run(command + outputs + protos, check=True)
-    sys.path.insert(0, folder)
-    return [importlib.import_module("onesea.v1." + name)
-            for name in ("onesea_pb2_grpc", "frame_pb2", "onesea_pb2", "query_pb2")]
 
 
 def list_sessions(stub, onesea_pb2):
@@ -90,8 +71,8 @@ def main():
     parser.add_argument("--seconds", type=float, default=3.0, help="how long to watch")
     arguments = parser.parse_args()
 
-    with tempfile.TemporaryDirectory() as folder:
-        services, frame_pb2, onesea_pb2, query_pb2 = load_messages(folder)
+    services, frame_pb2, onesea_pb2, query_pb2 = onesea_messages.load(
+        "onesea_pb2_grpc", "frame_pb2", "onesea_pb2", "query_pb2")
     with grpc.insecure_channel(arguments.server) as channel:
         stub = services.OneSeaStub(channel)
         try:

@@ -6,6 +6,7 @@
 #include "client/app/cli_server.h"
 #include "client/app/cli_world.h"
 #include "client/app/json_writer.h"
+#include "common/base/check.h"
 
 namespace onesea::app {
 
@@ -17,11 +18,23 @@ wire::CommandHeader HeaderFor(const SessionInfo& session, const Arguments& argum
           .lease = arguments.Get("lease").value_or("")};
 }
 
+absl::StatusOr<std::uint32_t> BodyOperand(const Arguments& arguments) {
+  ONESEA_ASSIGN_OR_RETURN(const std::int64_t id,
+                          InUsage(ParseInteger("BODY", arguments.operands()[0], 1, 0xffffffff)));
+  return static_cast<std::uint32_t>(id);
+}
+
 absl::StatusOr<double> NumberOr(const Arguments& arguments, absl::string_view option,
                                 double otherwise, double min, double max) {
   const std::optional<std::string> text = arguments.Get(option);
   if (!text) return otherwise;
   return InUsage(ParseNumber(absl::StrCat("--", option), *text, min, max));
+}
+
+absl::StatusOr<Vec2d> PlaceOption(const Arguments& arguments) {
+  const std::optional<std::string> text = arguments.Get("at");
+  if (!text) return UsageError("--at X,Y is needed, metres east and north");
+  return InUsage(ParsePlace("--at", *text));
 }
 
 void PrintDone(const CliContext& context, const SessionInfo& session,
