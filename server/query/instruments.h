@@ -27,15 +27,15 @@ struct InstrumentMoment {
 /// or for an Imu wasn't there a tick ago.
 ///
 /// Wave gauge: the height that QueryPoints answers for that place and tick.
-/// Pressure, above the atmosphere's: rho g d + linear theory's dynamic pressure (sea::SampleAtDepth,
-/// exact over all components) + rho g times the interaction layer's height, which isn't taken to
-/// fade with depth; d is counted from the level. Between level and surface, in a crest: rho g times
-/// the depth below the surface. 0 in the air and on land. Under troughs linear theory is off by second order.
+/// Pressure, above the atmosphere's: rho g d + linear theory's dynamic pressure (the exact sum of
+/// sea::SampleAtDepth) + rho g times the interaction layer's height, which isn't taken to fade with
+/// depth; d is counted from the level. Between level and surface, in a crest: rho g times the depth
+/// below the surface. 0 in the air and on land. Under troughs linear theory is off by second order.
 /// Imu: specific force f = R' (a - g), a = dv/dt + dw/dt x r + w x (w x r), the rates as differences
 /// over the last tick; so (0, 0, +9.81) at rest and 0 in free fall.
 ///
-/// Pre: validated. Cost: a snapshot a tick if there are gauges (shared with queries), 15 µs a
-/// pressure gauge. Reads at one time from one thread.
+/// Pre: validated. Cost: a snapshot a tick if there are gauges (shared with queries), and 15 µs a
+/// pressure gauge. For one thread.
 class InstrumentReader {
  public:
   explicit InstrumentReader(std::vector<wire::Instrument> instruments);

@@ -47,8 +47,8 @@ BodyDescription Boat() {
   body.centre_of_mass_m = Vec3d{-0.6, 0.0, 0.5};
   body.drag = kBoatDrag;
   body.quadratic_damping = CrossFlow(4.6, 0.25);
-  body.windage = wire::Windage{
-      .frontal_area_m2 = 1.5, .lateral_area_m2 = 3.5, .centre_m = {-0.3, 0.0, 1.0}};
+  body.windage =
+      wire::Windage{.frontal_area_m2 = 1.5, .lateral_area_m2 = 3.5, .centre_m = {-0.3, 0.0, 1.0}};
   body.thrusters = {{.position_m = {-2.55, 0.0, -0.1},
                      .diameter_m = 0.28,
                      .turns_per_s_max = 40.0,
@@ -79,8 +79,8 @@ BodyDescription WorkBoat() {
   body.centre_of_mass_m = Vec3d{-1.0, 0.0, 1.0};
   body.drag = kBoatDrag;
   body.quadratic_damping = CrossFlow(8.5, 0.75);
-  body.windage = wire::Windage{
-      .frontal_area_m2 = 6.0, .lateral_area_m2 = 14.0, .centre_m = {0.0, 0.0, 2.2}};
+  body.windage =
+      wire::Windage{.frontal_area_m2 = 6.0, .lateral_area_m2 = 14.0, .centre_m = {0.0, 0.0, 2.2}};
   body.thrusters = {{.position_m = {-4.5, 0.0, -0.1},
                      .diameter_m = 0.7,
                      .turns_per_s_max = 12.0,
@@ -109,8 +109,8 @@ BodyDescription Buoy() {
   body.shape = wire::BodyShape{.kind = ShapeKind::kCylinder, .radius_m = 0.6, .length_m = 1.0};
   body.mass_kg = 500.0;
   body.centre_of_mass_m = Vec3d{0.0, 0.0, -0.25};
-  body.windage = wire::Windage{
-      .frontal_area_m2 = 0.8, .lateral_area_m2 = 0.8, .centre_m = {0.0, 0.0, 0.7}};
+  body.windage =
+      wire::Windage{.frontal_area_m2 = 0.8, .lateral_area_m2 = 0.8, .centre_m = {0.0, 0.0, 0.7}};
   return body;
 }
 

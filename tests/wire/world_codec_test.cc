@@ -280,8 +280,9 @@ TEST(WorldCodec, PosesAndInstrumentsGoThereAndBack) {
               HasSubstr("poses[0].state.spin_rad_per_s.x: nan"));
 
   const InstrumentRequest request{
-      "tank", {WaveGauge{{1.0, 2.0}}, PressureGauge{0, {1.0, 2.0, -3.0}}, Imu{4, {0.5, 0, 0}},
-               Motion{5}}, 6};
+      "tank",
+      {WaveGauge{{1.0, 2.0}}, PressureGauge{0, {1.0, 2.0, -3.0}}, Imu{4, {0.5, 0, 0}}, Motion{5}},
+      6};
   v1::StreamInstrumentsRequest asked;
   ToProto(request, &asked);
   const auto read = FromProto(asked);
@@ -307,7 +308,8 @@ world {
   terrain_path: "bay.asc"
   regions { cell_m: 0.5 follow_body_id: 1 }
   bodies {
-    body { name: "boat" mass_kg: 400 preset: "raft" shape { box { size_m { x: 4 y: 1.5 z: 0.8 } } } }
+    body { name: "boat" mass_kg: 400 preset: "raft"
+           shape { box { size_m { x: 4 y: 1.5 z: 0.8 } } } }
     start { position_m { x: 10 y: -5 } }
   }
   water_level { time_s: 0 level_m: 0.5 }
