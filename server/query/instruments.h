@@ -31,8 +31,8 @@ struct InstrumentMoment {
 /// sea::SampleAtDepth) + rho g times the interaction layer's height, which isn't taken to fade with
 /// depth; d is counted from the level. Between level and surface, in a crest: rho g times the depth
 /// below the surface. 0 in the air and on land. Under troughs linear theory is off by second order.
-/// Imu: specific force f = R' (a - g), a = dv/dt + dw/dt x r + w x (w x r), the rates as differences
-/// over the last tick; so (0, 0, +9.81) at rest and 0 in free fall.
+/// Imu: specific force f = R' (a - g), a = dv/dt + dw/dt x r + w x (w x r), the rates being
+/// differences over the last tick; so (0, 0, +9.81) at rest and 0 in free fall.
 ///
 /// Pre: validated. Cost: a snapshot a tick if there are gauges (shared with queries), and 15 µs a
 /// pressure gauge. For one thread.
