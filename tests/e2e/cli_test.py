@@ -154,7 +154,7 @@ class World(unittest.TestCase):
         self.assertEqual(self.ask("obstacle", "--corner", "0,0", "--corner", "4,0", "--corner", "0,4", "--replace",
                                   str(wall))["id"], wall)
         self.ask("obstacle", "--remove", str(wall))
-        region = self.ask("region", "--at", "0,0", "--cells", "64x96", "--cell", "0.25", "--solver", "wave-equation",
+        region = self.ask("region", "--at", "0,0", "--cells", "64x96", "--cell", "0.25", "--solver", "iwave",
                           "--damping", "0.1")["id"]
         self.ask("region", "--remove", str(region))
         for words in (["obstacle", "--remove", str(wall)], ["region", "--remove", str(region)],
@@ -188,7 +188,7 @@ class World(unittest.TestCase):
             self.assertEqual(int(row[0]) % 6, 0)
             asked = self.ask("query", "--at", "3,4", "--time", row[1])["points"][0]["height_m"]
             self.assertAlmostEqual(float(row[3]), asked, delta=1e-5)
-            self.assertAlmostEqual(float(row[4]), 1025 * 9.81 * 6, delta=0.2 * 1025 * 9.81)
+            self.assertAlmostEqual(float(row[4]), 1025 * 9.81 * 6, delta=1.0 * 1025 * 9.81)
             self.assertAlmostEqual(float(row[header.index(f"imu {buoy} 0 0 0 force z [m/s2]")]), 9.81, delta=2.0)
             self.assertAlmostEqual(float(row[header.index(f"motion {buoy} x [m]")]), 20.0, delta=2.0)
         self.ask("remove", str(buoy))
