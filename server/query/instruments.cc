@@ -116,7 +116,8 @@ void InstrumentReader::ReadGauges(QueryEngine& engine, const InstrumentMoment& m
     request.points_m.push_back(there ? Vec2d{gauge.place_m.x, gauge.place_m.y} : Vec2d{});
   }
   const absl::StatusOr<wire::QueryAnswer> answer = engine.Answer(
-      moment.components, moment.tick, request, {moment.interaction, moment.water_level});
+      moment.components, moment.tick, request,
+      {.interaction = moment.interaction, .past = nullptr, .water_level = moment.water_level});
   if (!answer.ok()) return;  // a body at the edge of the world: no reading
   for (std::size_t n = 0; n < gauges_.size(); ++n) {
     if (!gauges_[n].pressure) values_[gauges_[n].value] = double{answer->height_m[n]};
