@@ -66,7 +66,7 @@ void World::Step(Tick tick, const std::shared_ptr<const sea::Components>& compon
   SampleSea(tick_, components);
   Done(WorldStage::kSeaMade);
   water_.Clear();
-  for (const auto& [id, body] : bodies_) AddWaterUnder(body);
+  for (auto& [id, body] : bodies_) AddWaterUnder(body);
   FillWater();
   Done(WorldStage::kWaterSampled);
   PressBodies();
@@ -158,10 +158,12 @@ void World::FloatNewBodies() {
   }
 }
 
-void World::AddWaterUnder(const Body& body) {
+void World::AddWaterUnder(Body& body) {
+  body.first_point = water_.points_m().size();
   const Vec3d centre_m = body.stepped->state.pose.centre_m;
   water_.Add({centre_m.x, centre_m.y}, body.model->hull.radius_m(),
              body.model->spec.radiation == Radiation::kCoefficients);
+  body.point_count = water_.points_m().size() - body.first_point;
 }
 
 void World::FillWater() {
@@ -180,6 +182,11 @@ void World::FeelTheLayer() {
   felt_.assign(water_.points_m().size(), {});
   layer_.AddFelt(water_.points_m(), felt_);
   water_.AddInteraction(felt_);
+  for (auto& [id, body] : bodies_) {
+    if (body.model->spec.control != BodyControl::kByOwner) continue;
+    const auto first = felt_.begin() + static_cast<std::ptrdiff_t>(body.first_point);
+    body.felt.assign(first, first + static_cast<std::ptrdiff_t>(body.point_count));
+  }
 }
 
 Air World::AirAt(const sea::Recipe& recipe, SimTime time) const {

@@ -145,8 +145,10 @@ class World {
     bool wetness_known = false;
     double pressed_share = 0.0;  // of the displacement at rest, lagging behind the true one
     bool is_to_float = false;    // on the waves of its first step, which it was spawned without
-    std::vector<LumpedColumn> columns;  // at rest, for cells of columns_cell_m
-    double columns_cell_m = 0.0;        // 0: not made yet
+    std::vector<LumpedColumn> columns;             // at rest, for cells of columns_cell_m
+    double columns_cell_m = 0.0;                   // 0: not made yet
+    std::size_t first_point = 0, point_count = 0;  // of its water
+    std::vector<sea::InteractionFelt> felt;        // there in the last step; of owners' bodies
   };
   class Water;
 
@@ -167,7 +169,7 @@ class World {
   absl::Status PlaceRegions();
   void SampleSea(Tick tick, const std::shared_ptr<const sea::Components>& components);
   void FloatNewBodies();
-  void AddWaterUnder(const Body& body);
+  void AddWaterUnder(Body& body);
   void FillWater();
   void FeelTheLayer();
   Air AirAt(const sea::Recipe& recipe, SimTime time) const;

@@ -22,19 +22,29 @@ absl::StatusOr<std::vector<wire::BodyWrench>> World::SetPoses(
   }
   SampleSea(tick_, components);
   water_.Clear();
+  felt_.clear();
   for (std::size_t n = 0; n < poses.size(); ++n) {
     const std::uint32_t id = poses[n].body_id;
     Body& body = bodies_[id];
     const Vec3d way_m = states[n].pose.centre_m - rigid_.FindState(id)->pose.centre_m;
     body.is_to_float = false;
-    if (Norm(way_m) > body.model->hull.radius_m()) body.pressed_share = 0.0;
+    if (Norm(way_m) > body.model->hull.radius_m()) {
+      body.pressed_share = 0.0;
+      body.felt.clear();
+    }
     const absl::Status set =
         rigid_.SetMotion(id, states[n].pose, states[n].velocity_m_per_s, states[n].spin_rad_per_s);
     ONESEA_CHECK(set.ok()) << set.ToString();
     AddWaterUnder(body);
+    // As the last step had it: layer and pressing hulls of one instant.
+    if (body.felt.size() == body.point_count) {
+      felt_.insert(felt_.end(), body.felt.begin(), body.felt.end());
+    } else {
+      felt_.resize(felt_.size() + body.point_count);
+    }
   }
   FillWater();
-  FeelTheLayer();
+  water_.AddInteraction(felt_);
   const Air air = AirAt(components->recipe, TimeOfTick(tick_, options_.tick_rate_hz));
   std::vector<wire::BodyWrench> wrenches(poses.size());
   for (std::size_t n = 0; n < poses.size(); ++n) {
