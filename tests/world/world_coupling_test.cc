@@ -72,12 +72,15 @@ TEST(WorldCoupling, WavesHaveTheMomentumThatTheBodyLost) {
   World world{WorldOptions{}};
   ASSERT_TRUE(world.Apply(wire::AddRegion{Square(320)}).ok());
   wire::BodyDescription capsule;
-  capsule.shape.kind = wire::ShapeKind::kCapsule;
-  capsule.shape.radius_m = 0.9;
-  capsule.shape.length_m = 5.0;
+  capsule.shape =
+      wire::BodyShape{.kind = wire::ShapeKind::kCapsule, .radius_m = 0.9, .length_m = 5.0};
   capsule.mass_kg = 0.45 * sea::kWaterDensityKgPerM3 * sea::kPi * 0.81 * (5.0 + 1.2);
   capsule.control = wire::BodyControl::kByOwner;
-  capsule.drag = {.friction = 0.0, .pressure = 0.0, .suction = 0.0};
+  capsule.drag = wire::Drag{.friction = 0.0, .pressure = 0.0, .suction = 0.0};
+  // Pressure alone: nothing of coefficients.
+  capsule.added_mass.emplace().fill(0.0);
+  capsule.viscous_damping.emplace().fill(0.0);
+  capsule.radiation_damping.emplace().fill(0.0);
   const auto prepared = PrepareBody(capsule);
   ASSERT_TRUE(prepared.ok()) << prepared.status();
   const double z = prepared->model->rest.centre_height_m;
@@ -88,11 +91,11 @@ TEST(WorldCoupling, WavesHaveTheMomentumThatTheBodyLost) {
   pose.state.position_m = {-25, 0, z};
   const auto step = [&](double speed) {
     pose.state.velocity_m_per_s = {speed, 0, 0};
-    const auto wrench = world.SetPose(pose);
-    EXPECT_TRUE(wrench.ok()) << wrench.status();
+    const auto wrenches = world.SetPoses({&pose, 1}, calm);
+    EXPECT_TRUE(wrenches.ok()) << wrenches.status();
     world.Step(++tick, calm);
     pose.state.position_m.x += speed / 60.0;
-    return wrench->force_n.x;
+    return wrenches->front().force_n.x;
   };
   for (int n = 0; n < 2400; ++n) step(0.0);
   double lost_n_s = 0.0;
