@@ -19,7 +19,7 @@ struct CommandResult {
   std::uint32_t id = 0;  ///< of the body, obstacle or region that it made or changed
   std::string lease;     ///< of SpawnBody and TakeLease
   Tick tick = 0;         ///< the first that shows it
-  std::shared_ptr<const world::PreparedBody> body;  ///< of SpawnBody
+  std::shared_ptr<const world::PreparedBody> body{};  ///< of SpawnBody
 };
 using CommandDone = std::function<void(const absl::StatusOr<CommandResult>&)>;
 
