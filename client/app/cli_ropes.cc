@@ -91,9 +91,9 @@ CliCommand RopeCommand() {
                       {"stiffness", "N/M", "default 10000"},
                       {"remove", "ROPE", "takes the rope away instead"},
                       {"lease", "TEXT", "of the bodies, if somebody holds them"}},
-          .examples = {"onesea rope --from 1@3,0,0.5 --to 20,0,1 --length 8",
-                       "onesea rope --from 1@-3,0,0.3 --to 2@3,0,0.3 --length 12",
-                       "onesea rope --remove 7"},
+          .examples = {"onesea rope --from 1@3,0,0.5 --to 20,0,1 --length 20",
+                       "onesea rope --from 1@-3,0,0.3 --to 2@0,0,0.3 --length 20",
+                       "onesea rope --remove 3"},
           .run = RunRope};
 }
 
