@@ -21,8 +21,8 @@ def main():
         print(finished.stdout, finished.stderr)
         assert finished.returncode == 0, finished.returncode
         rms, most = map(float, re.search(r"track error: ([\d.]+) m rms, ([\d.]+) m at most", finished.stdout).groups())
-        # A boat of 5 m that turns within some lengths; one that sails off or in circles is far beyond.
-        assert 0.0 < rms < 2.5 and most < 8.0, (rms, most)
+        # A boat of 5 m in a swell of 1.2 m that turns within some lengths; one that sails off or in circles is far beyond.
+        assert 0.0 < rms < 3.5 and most < 9.0, (rms, most)
         assert "square of 30 m done" in finished.stdout
         assert server.ask("bodies")["bodies"] == []  # it cleans up behind itself
         assert server.ask("sessions")["sessions"][0]["pace"] == "real time"

@@ -19,9 +19,9 @@ import onesea_messages
 
 READINGS_PER_S = 10
 THROTTLE = 0.35
-LOOK_AHEAD_M = 9.0  # a point this far along the side is steered for: less is nervous, more cuts corners
-TURN_BEFORE_M = 5.0  # the corner, about the radius of the boat's turn
-GAIN = 1.6  # rudder per radian of heading error
+LOOK_AHEAD_M = 7.0  # a point this far along the side is steered for: less is nervous, more cuts corners
+TURN_BEFORE_M = 8.0  # the corner, about the radius of the boat's turn
+GAIN = 2.5  # rudder per radian of heading error
 DAMPING_S = 0.8  # and per rad/s of turning
 
 
