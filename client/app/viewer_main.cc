@@ -205,6 +205,7 @@ int main(int argc, char** argv) {
   absl::SetFlagsUsageConfig(config);
   std::vector<std::string> arguments = onesea::client::WithUnderscores(argc, argv);
   std::vector<char*> pointers;
+  pointers.reserve(arguments.size());
   for (std::string& argument : arguments) pointers.push_back(argument.data());
   const std::vector<char*> rest =
       absl::ParseCommandLine(static_cast<int>(pointers.size()), pointers.data());

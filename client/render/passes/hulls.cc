@@ -39,7 +39,7 @@ glm::mat4 Placement(const HullInstance& hull, const Vec3d& zero) {
 void SetAttribute(GLuint location, GLint size, std::size_t offset) {
   glEnableVertexAttribArray(location);
   glVertexAttribPointer(location, size, GL_FLOAT, GL_FALSE, sizeof(HullCorner),
-                        reinterpret_cast<const void*>(offset));
+                        reinterpret_cast<const void*>(offset));  // NOLINT: as OpenGL wants it
 }
 
 void Clear() {

@@ -37,7 +37,7 @@ SprayPass::SprayPass(ShaderProgram one, ShaderProgram four)
   const auto attribute = [](GLuint location, GLint size, std::size_t offset) {
     glEnableVertexAttribArray(location);
     glVertexAttribPointer(location, size, GL_FLOAT, GL_FALSE, sizeof(Instance),
-                          reinterpret_cast<const void*>(offset));
+                          reinterpret_cast<const void*>(offset));  // NOLINT: as OpenGL wants it
     glVertexAttribDivisor(location, kDrops);
   };
   attribute(0, 4, offsetof(Instance, x));
