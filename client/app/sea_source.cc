@@ -25,7 +25,7 @@ class FileSource : public SeaSource {
              std::shared_ptr<const sea::Components> components)
       : path_(std::move(path)),
         speed_(spec.speed),
-        water_level_(std::move(spec.world.water_level)),
+        water_level_(spec.world.water_level),
         components_(std::move(components)),
         start_ns_(SystemClock().MonotonicNs()) {}
 
