@@ -10,6 +10,7 @@
 #include "absl/strings/str_replace.h"
 #include "client/app/cli_commands.h"
 #include "client/app/cli_server.h"
+#include "client/app/cli_world.h"
 #include "client/app/json_writer.h"
 #include "common/base/check.h"
 #include "common/base/limits.h"
@@ -70,9 +71,8 @@ absl::StatusOr<Asked> ReadAsked(const Arguments& arguments) {
                asked);
   }
   for (const std::string& text : arguments.GetAll("motion")) {
-    ONESEA_ASSIGN_OR_RETURN(const std::int64_t id,
-                            InUsage(ParseInteger("--motion", text, 1, 0xffffffff)));
-    list.push_back(wire::Motion{static_cast<std::uint32_t>(id)});
+    ONESEA_ASSIGN_OR_RETURN(const std::uint32_t id, ParseId("--motion", text));
+    list.push_back(wire::Motion{id});
     AddColumns("motion " + text,
                {"x [m]", "y [m]", "z [m]", "turn w", "turn x", "turn y", "turn z",
                 "velocity x [m/s]", "velocity y [m/s]", "velocity z [m/s]", "spin x [rad/s]",

@@ -14,19 +14,6 @@
 namespace onesea::app {
 namespace {
 
-absl::StatusOr<Vec3d> ParsePoint(const std::string& what, absl::string_view text) {
-  const std::vector<absl::string_view> parts = absl::StrSplit(text, ',');
-  if (parts.size() != 3) {
-    return absl::InvalidArgumentError(absl::StrCat(what, " is '", text, "', it must be X,Y,Z"));
-  }
-  constexpr double kMax = kQueryCoordinateMaxM;
-  Vec3d point;
-  ONESEA_ASSIGN_OR_RETURN(point.x, ParseNumber(what, parts[0], -kMax, kMax));
-  ONESEA_ASSIGN_OR_RETURN(point.y, ParseNumber(what, parts[1], -kMax, kMax));
-  ONESEA_ASSIGN_OR_RETURN(point.z, ParseNumber(what, parts[2], -kMax, kMax));
-  return point;
-}
-
 // "BODY", "BODY@X,Y,Z" or "X,Y,Z".
 absl::StatusOr<wire::RopeEnd> EndOption(const Arguments& arguments, const std::string& option) {
   const std::string what = absl::StrCat("--", option);
@@ -36,22 +23,22 @@ absl::StatusOr<wire::RopeEnd> EndOption(const Arguments& arguments, const std::s
   const std::pair<std::string, std::string> parts = absl::StrSplit(*text, absl::MaxSplits('@', 1));
   const bool in_world = absl::StrContains(parts.first, ',');
   if (!in_world) {
-    ONESEA_ASSIGN_OR_RETURN(const std::int64_t id,
-                            InUsage(ParseInteger(what, parts.first, 1, 0xffffffff)));
-    end.body_id = static_cast<std::uint32_t>(id);
+    ONESEA_ASSIGN_OR_RETURN(end.body_id, ParseId(what, parts.first));
   }
   const std::string& point = in_world ? *text : parts.second;
   if (!point.empty()) {
-    ONESEA_ASSIGN_OR_RETURN(end.point_m, InUsage(ParsePoint(what, point)));
+    ONESEA_ASSIGN_OR_RETURN(const std::vector<double> numbers,
+                            InUsage(ParseNumbers(what, "X,Y,Z", point, kQueryCoordinateMaxM)));
+    end.point_m = {numbers[0], numbers[1], numbers[2]};
   }
   return end;
 }
 
-absl::StatusOr<wire::WorldCommand> CommandOf(const Arguments& arguments) {
-  if (const auto rope = arguments.Get("remove")) {
-    ONESEA_ASSIGN_OR_RETURN(const std::int64_t id,
-                            InUsage(ParseInteger("--remove", *rope, 1, 0xffffffff)));
-    return wire::RemoveRope{static_cast<std::uint32_t>(id)};
+absl::Status RunRope(const CliContext& context, const Arguments& arguments) {
+  if (arguments.Has("remove")) {
+    ONESEA_ASSIGN_OR_RETURN(const std::uint32_t id, IdOption(arguments, "remove"));
+    return DoCommand(context, arguments, wire::RemoveRope{id},
+                     absl::StrCat("rope ", id, " is gone"));
   }
   wire::RopeSpec rope;
   ONESEA_ASSIGN_OR_RETURN(rope.from, EndOption(arguments, "from"));
@@ -61,19 +48,7 @@ absl::StatusOr<wire::WorldCommand> CommandOf(const Arguments& arguments) {
   ONESEA_ASSIGN_OR_RETURN(
       rope.stiffness_n_per_m,
       NumberOr(arguments, "stiffness", rope.stiffness_n_per_m, 1e-6, kRopeStiffnessMaxNPerM));
-  return wire::AddRope{rope};
-}
-
-absl::Status RunRope(const CliContext& context, const Arguments& arguments) {
-  ONESEA_ASSIGN_OR_RETURN(const wire::WorldCommand command, CommandOf(arguments));
-  ONESEA_ASSIGN_OR_RETURN(const ChosenSession chosen, ChooseSession(context));
-  ONESEA_ASSIGN_OR_RETURN(const client::CommandAnswer answer,
-                          chosen.server->Command(HeaderFor(chosen.info, arguments), command));
-  const auto* gone = std::get_if<wire::RemoveRope>(&command);
-  PrintDone(context, chosen.info, answer,
-            gone == nullptr ? absl::StrCat("rope ", answer.id, " holds")
-                            : absl::StrCat("rope ", gone->rope_id, " is gone"));
-  return absl::OkStatus();
+  return DoCommand(context, arguments, wire::AddRope{rope}, "rope $0 holds");
 }
 
 }  // namespace

@@ -15,39 +15,20 @@ namespace {
 
 constexpr double kKilogramOfTntJ = 4.2e6;
 
-absl::StatusOr<std::uint32_t> IdOption(const Arguments& arguments, absl::string_view option,
-                                       std::uint32_t otherwise) {
-  const std::optional<std::string> text = arguments.Get(option);
-  if (!text) return otherwise;
-  ONESEA_ASSIGN_OR_RETURN(const std::int64_t id,
-                          InUsage(ParseInteger(absl::StrCat("--", option), *text, 1, 0xffffffff)));
-  return static_cast<std::uint32_t>(id);
-}
-
-absl::Status Give(const CliContext& context, const Arguments& arguments,
-                  const wire::WorldCommand& command, absl::string_view what, bool says_id) {
-  ONESEA_ASSIGN_OR_RETURN(const ChosenSession chosen, ChooseSession(context));
-  ONESEA_ASSIGN_OR_RETURN(const client::CommandAnswer answer,
-                          chosen.server->Command(HeaderFor(chosen.info, arguments), command));
-  PrintDone(context, chosen.info, answer,
-            says_id ? absl::StrCat(what, " ", answer.id) : std::string(what));
-  return absl::OkStatus();
-}
-
 absl::Status RunExplode(const CliContext& context, const Arguments& arguments) {
   ONESEA_ASSIGN_OR_RETURN(const Vec2d place, PlaceOption(arguments));
   ONESEA_ASSIGN_OR_RETURN(const double tnt_kg, NumberOr(arguments, "tnt", 1.0, 1e-3, 2000.0));
   ONESEA_ASSIGN_OR_RETURN(const double depth_m, NumberOr(arguments, "depth", 1.0, 0.0, 1000.0));
   const wire::Explode explode{{place.x, place.y, -depth_m}, tnt_kg * kKilogramOfTntJ};
-  return Give(context, arguments, explode, "an explosion", false);
+  return DoCommand(context, arguments, explode, "an explosion");
 }
 
 absl::Status RunObstacle(const CliContext& context, const Arguments& arguments) {
   if (arguments.Has("remove")) {
     if (arguments.Has("corner")) return UsageError("--remove and --corner exclude each other");
-    ONESEA_ASSIGN_OR_RETURN(const std::uint32_t id, IdOption(arguments, "remove", 0));
-    return Give(context, arguments, wire::RemoveObstacle{id},
-                absl::StrCat("obstacle ", id, " is gone"), false);
+    ONESEA_ASSIGN_OR_RETURN(const std::uint32_t id, IdOption(arguments, "remove"));
+    return DoCommand(context, arguments, wire::RemoveObstacle{id},
+                     absl::StrCat("obstacle ", id, " is gone"));
   }
   wire::SetObstacle obstacle;
   for (const std::string& text : arguments.GetAll("corner")) {
@@ -57,8 +38,8 @@ absl::Status RunObstacle(const CliContext& context, const Arguments& arguments) 
   if (obstacle.corners_m.size() < 3) {
     return UsageError("obstacle needs --corner X,Y three times or more, or --remove ID");
   }
-  ONESEA_ASSIGN_OR_RETURN(obstacle.obstacle_id, IdOption(arguments, "replace", 0));
-  return Give(context, arguments, obstacle, "obstacle", true);
+  ONESEA_ASSIGN_OR_RETURN(obstacle.obstacle_id, IdOption(arguments, "replace"));
+  return DoCommand(context, arguments, obstacle, "obstacle $0");
 }
 
 absl::StatusOr<wire::RegionSolver> SolverOption(const Arguments& arguments) {
@@ -93,12 +74,12 @@ absl::Status RunRegion(const CliContext& context, const Arguments& arguments) {
     if (arguments.Has("at") || arguments.Has("follow")) {
       return UsageError("--remove excludes --at and --follow");
     }
-    ONESEA_ASSIGN_OR_RETURN(const std::uint32_t id, IdOption(arguments, "remove", 0));
-    return Give(context, arguments, wire::RemoveRegion{id}, absl::StrCat("region ", id, " is gone"),
-                false);
+    ONESEA_ASSIGN_OR_RETURN(const std::uint32_t id, IdOption(arguments, "remove"));
+    return DoCommand(context, arguments, wire::RemoveRegion{id},
+                     absl::StrCat("region ", id, " is gone"));
   }
   wire::RegionSpec region;
-  ONESEA_ASSIGN_OR_RETURN(region.follow_body_id, IdOption(arguments, "follow", 0));
+  ONESEA_ASSIGN_OR_RETURN(region.follow_body_id, IdOption(arguments, "follow"));
   if (region.follow_body_id == 0) {
     if (!arguments.Has("at")) {
       return UsageError("region needs --at X,Y or --follow BODY, or --remove ID");
@@ -110,7 +91,7 @@ absl::Status RunRegion(const CliContext& context, const Arguments& arguments) {
   ONESEA_ASSIGN_OR_RETURN(
       region.cell_m, NumberOr(arguments, "cell", region.cell_m, kRegionCellMinM, kRegionCellMaxM));
   ONESEA_ASSIGN_OR_RETURN(region.damping_per_s, NumberOr(arguments, "damping", 0.0, 0.0, 10.0));
-  return Give(context, arguments, wire::AddRegion{region}, "region", true);
+  return DoCommand(context, arguments, wire::AddRegion{region}, "region $0");
 }
 
 }  // namespace

@@ -100,13 +100,8 @@ absl::Status RunDrive(const CliContext& context, const Arguments& arguments) {
   ONESEA_ASSIGN_OR_RETURN(const std::uint32_t body, BodyOperand(arguments));
   ONESEA_ASSIGN_OR_RETURN(const double throttle, NumberOr(arguments, "throttle", 0.0, -1.0, 1.0));
   ONESEA_ASSIGN_OR_RETURN(const double rudder, NumberOr(arguments, "rudder", 0.0, -1.0, 1.0));
-  ONESEA_ASSIGN_OR_RETURN(const ChosenSession chosen, ChooseSession(context));
-  ONESEA_ASSIGN_OR_RETURN(const client::CommandAnswer answer,
-                          chosen.server->Command(HeaderFor(chosen.info, arguments),
-                                                 wire::DriveBody{body, {throttle}, {rudder}}));
-  PrintDone(context, chosen.info, answer,
-            absl::StrFormat("body %d: throttle %.2f, rudder %.2f", body, throttle, rudder));
-  return absl::OkStatus();
+  return DoCommand(context, arguments, wire::DriveBody{body, {throttle}, {rudder}},
+                   absl::StrFormat("body %d: throttle %.2f, rudder %.2f", body, throttle, rudder));
 }
 
 absl::Status RunImpulse(const CliContext& context, const Arguments& arguments) {
@@ -122,21 +117,14 @@ absl::Status RunImpulse(const CliContext& context, const Arguments& arguments) {
                             InUsage(ParseNumbers("--at", "X,Y,Z", *at, kQueryCoordinateMaxM)));
     impulse.position_m = Vec3d{place[0], place[1], place[2]};
   }
-  ONESEA_ASSIGN_OR_RETURN(const ChosenSession chosen, ChooseSession(context));
-  ONESEA_ASSIGN_OR_RETURN(const client::CommandAnswer answer,
-                          chosen.server->Command(HeaderFor(chosen.info, arguments), impulse));
-  PrintDone(context, chosen.info, answer, absl::StrCat("body ", impulse.body_id, " is pushed"));
-  return absl::OkStatus();
+  return DoCommand(context, arguments, impulse,
+                   absl::StrCat("body ", impulse.body_id, " is pushed"));
 }
 
 absl::Status RunRemove(const CliContext& context, const Arguments& arguments) {
   ONESEA_ASSIGN_OR_RETURN(const std::uint32_t body, BodyOperand(arguments));
-  ONESEA_ASSIGN_OR_RETURN(const ChosenSession chosen, ChooseSession(context));
-  ONESEA_ASSIGN_OR_RETURN(
-      const client::CommandAnswer answer,
-      chosen.server->Command(HeaderFor(chosen.info, arguments), wire::RemoveBody{body}));
-  PrintDone(context, chosen.info, answer, absl::StrCat("body ", body, " is gone"));
-  return absl::OkStatus();
+  return DoCommand(context, arguments, wire::RemoveBody{body},
+                   absl::StrCat("body ", body, " is gone"));
 }
 
 }  // namespace

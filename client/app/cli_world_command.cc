@@ -3,6 +3,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "absl/strings/substitute.h"
 #include "client/app/cli_server.h"
 #include "client/app/cli_world.h"
 #include "client/app/json_writer.h"
@@ -18,10 +19,13 @@ wire::CommandHeader HeaderFor(const SessionInfo& session, const Arguments& argum
           .lease = arguments.Get("lease").value_or("")};
 }
 
-absl::StatusOr<std::uint32_t> BodyOperand(const Arguments& arguments) {
-  ONESEA_ASSIGN_OR_RETURN(const std::int64_t id,
-                          InUsage(ParseInteger("BODY", arguments.operands()[0], 1, 0xffffffff)));
+absl::StatusOr<std::uint32_t> ParseId(absl::string_view what, absl::string_view text) {
+  ONESEA_ASSIGN_OR_RETURN(const std::int64_t id, InUsage(ParseInteger(what, text, 1, 0xffffffff)));
   return static_cast<std::uint32_t>(id);
+}
+
+absl::StatusOr<std::uint32_t> BodyOperand(const Arguments& arguments) {
+  return ParseId("BODY", arguments.operands()[0]);
 }
 
 absl::StatusOr<double> NumberOr(const Arguments& arguments, absl::string_view option,
@@ -35,6 +39,21 @@ absl::StatusOr<Vec2d> PlaceOption(const Arguments& arguments) {
   const std::optional<std::string> text = arguments.Get("at");
   if (!text) return UsageError("--at X,Y is needed, metres east and north");
   return InUsage(ParsePlace("--at", *text));
+}
+
+absl::StatusOr<std::uint32_t> IdOption(const Arguments& arguments, absl::string_view option) {
+  const std::optional<std::string> text = arguments.Get(option);
+  if (!text) return 0;
+  return ParseId(absl::StrCat("--", option), *text);
+}
+
+absl::Status DoCommand(const CliContext& context, const Arguments& arguments,
+                       const wire::WorldCommand& command, absl::string_view what) {
+  ONESEA_ASSIGN_OR_RETURN(const ChosenSession chosen, ChooseSession(context));
+  ONESEA_ASSIGN_OR_RETURN(const client::CommandAnswer answer,
+                          chosen.server->Command(HeaderFor(chosen.info, arguments), command));
+  PrintDone(context, chosen.info, answer, absl::Substitute(what, answer.id));
+  return absl::OkStatus();
 }
 
 void PrintDone(const CliContext& context, const SessionInfo& session,
