@@ -5,14 +5,12 @@
 #include <cmath>
 
 #include "client/render/foam_texture.h"
-#include "common/base/check.h"
 
 namespace onesea::render {
 namespace {
 
 constexpr int kUnit = 1 << (GroundTextures::kMips - 1);  // mips of whole units keep their places
 constexpr int kRefineMax = 4;
-constexpr float kNoBottomM = -1e4f;
 constexpr double kNoisePeriodM = 4096.0;
 
 int RoundUp(int texels) { return (texels + kUnit - 1) / kUnit * kUnit; }
@@ -82,12 +80,6 @@ void Halve(std::vector<float>& texels, std::size_t width, std::size_t height) {
 }
 
 }  // namespace
-
-GroundTextures::GroundTextures() {
-  MakeGrain();
-  width_ = height_ = columns_ = rows_ = kUnit;
-  UploadLevels(std::vector<float>(static_cast<std::size_t>(kUnit * kUnit), kNoBottomM));
-}
 
 void GroundTextures::MakeGrain() {
   constexpr int kSide = kFoamTextureSize;
@@ -217,7 +209,8 @@ void GroundTextures::UploadLevels(const std::vector<float>& elevation) {
 
 void GroundTextures::Update(const std::shared_ptr<const sea::Terrain>& terrain, Vec2d eye,
                             double water_level_m, FrameBlock& block) {
-  if (terrain != nullptr && terrain != terrain_) {
+  if (terrain != terrain_) {
+    if (terrain_ == nullptr) MakeGrain();
     Upload(*terrain);
     terrain_ = terrain;
   }

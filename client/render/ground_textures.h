@@ -24,10 +24,8 @@ class GroundTextures {
   static constexpr int kSideMax = 2048;
   static constexpr int kMips = 8;
 
-  GroundTextures();
-
   /// Uploads `terrain` if it is another one than last time (0.1 to 0.5 s) and fills the block's
-  /// ground words. Null: a bottom far down.
+  /// ground words. Before the first one, the textures are empty. Pre: not null.
   void Update(const std::shared_ptr<const sea::Terrain>& terrain, Vec2d eye, double water_level_m,
               FrameBlock& block);
 
