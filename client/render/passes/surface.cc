@@ -23,7 +23,8 @@ absl::StatusOr<ShaderProgram> Build(const SurfaceVariant& variant) {
       define("GROUND_COARSE", 1)};
   std::vector<std::string_view> files = {"frame.glsl", "sky.glsl", "optics.glsl"};
   if (variant.attenuated) files.push_back("attenuation.glsl");
-  if (variant.terrain) files.push_back("ground.glsl");
+  files.push_back("waves.glsl");
+  if (variant.terrain) files.insert(files.end(), {"ground.glsl", "shore.glsl"});
   files.push_back("surface.frag.glsl");
   return ShaderProgram::Build({"fullscreen.vert.glsl"}, files,
                               {definitions.begin(), definitions.end()});

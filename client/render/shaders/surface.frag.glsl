@@ -1,13 +1,7 @@
-// Light from the sea towards the eye, for every pixel that the lattice covered.
-//
-// Slopes come from the undisplaced point, filtered to the pixel's footprint; the variance that
-// the filter removed, plus that of waves which no texture holds, is the pixel's roughness.
-uniform sampler2DArray slope_map;
-uniform sampler2D ripple_slope_map;
-uniform sampler2DArray patch_slope_map;
+// Light from the sea towards the eye, for every pixel that the lattice covered. Needs waves.glsl,
+// with TERRAIN shore.glsl, and what these need.
 uniform sampler2D foam_window_map;
 uniform sampler2D foam_map;
-uniform sampler2D cloud_map;
 #if HULLS
 uniform sampler2D mirror_map;  // hulls upside down, as flat water would show them; premultiplied
 uniform sampler2D mirror_distance_map;  // of that water, premultiplied
@@ -19,102 +13,6 @@ uniform sampler2D surface_map;
 #endif
 in vec2 picture;
 out vec4 radiance;
-
-struct Waves {
-  vec2 slope;      // mean over the footprint, with respect to the undisplaced point
-  float squeeze;   // trace of J: mean over the footprint
-  vec3 variance;   // xx, yy, xy: of the slopes within the footprint
-  float folding;   // variance of J within the footprint, of the cascades alone
-  float churned;   // share that wakes and splashes have made white
-#if ATTENUATED
-  float steep;     // what shallow water and land leave of the slope variance
-  float hs;        // and of the height, four deviations [m]
-#endif
-};
-
-vec3 normal_of(Waves w) {
-  return normalize(vec3(-w.slope, max(1.0 + w.squeeze, 0.12)));
-}
-
-// Straight code on purpose: software rasterisers run both sides of every branch, and a loop that
-// might end early costs them more than what it skips. CASCADES is a constant for the same reason.
-// `xy` is the undisplaced point, `place` where it is now.
-Waves gather(vec2 xy, vec2 place, float distance, float stretch) {
-#if ATTENUATED
-  Waves w = Waves(vec2(0.0), 0.0, vec3(0.0), 0.0, 0.0, 0.0, 0.0);
-  vec4 factors = wave_factors(xy, 0);
-#else
-  Waves w = Waves(vec2(0.0), 0.0, vec3(0.0), 0.0, 0.0);
-#endif
-  // Footprint: the pixel, longer along the view than across, filtered by one round kernel between
-  // the two. Beyond some stretch only the faces that look at the eye are seen, and they are not long.
-  stretch = min(stretch, 14.0);
-  float footprint = log2(distance * ray_forward.w) + 0.75 * log2(stretch);
-  float lost_sum = 0.0;
-  for (int c = 0; c < CASCADES; ++c) {
-    float lod = max(footprint - cascade_map[c].w - 0.3, 0.0);
-    vec3 at = vec3(tile_coordinate(c, xy), float(c));
-    vec4 slope = textureLod(slope_map, at, lod);
-#if ATTENUATED
-    if (c == 4) factors = wave_factors(xy, 1);
-    float factor = factors[c & 3];
-    w.steep += factor * factor * cascade_share[c].w;
-    w.hs += factor * factor * cascade_turn[c].z;
-    slope *= vec4(vec3(factor), factor * factor);
-#endif
-    w.slope += slope.xy;
-    w.squeeze += slope.z;
-    float lost = max(slope.w - dot(slope.xy, slope.xy), 0.0);
-    lost_sum += lost;
-    w.variance += lost * cascade_share[c].xyz;
-  }
-  // A wave of slope s changes J by choppiness times s.
-  w.folding = water_leaving.w * water_leaving.w * lost_sum;
-  w.variance += fine_variance.xyz;
-#if RIPPLES
-  float ripple_lod = max(footprint + 0.15 * log2(stretch) - ripple_map.w, 0.0);
-  vec2 at = xy * ripple_map.z + ripple_map.xy;
-  w.slope += 0.8 * textureLod(ripple_slope_map, at, ripple_lod).xy;
-  // The same tile again, finer and turned: waves of 2.5 cm, and no repetition after 3.7 m.
-  const mat2 kTurn = mat2(0.77, 0.64, -0.64, 0.77);
-  vec2 fine = textureLod(ripple_slope_map, kTurn * at * 3.3, ripple_lod + 1.72).xy;
-  w.slope += 0.6 * (fine * kTurn);
-  // The share of their variance that a mip has lost, measured once: s-shaped in its level.
-  float lost = 0.64 * smoothstep(-0.5, 4.2, ripple_lod) + 0.36 * smoothstep(-2.2, 2.5, ripple_lod);
-  w.variance += ripple_stats.xyz * lost;
-#endif
-#if REGULARS
-  int regulars = int(counts.y);
-#if ATTENUATED
-  float regular_factor = wave_factors(xy, CASCADES / 4)[CASCADES & 3];
-#endif
-  for (int n = 0; n < regulars; ++n) {
-    vec4 wave = regular[n];
-#if ATTENUATED
-    wave.z *= regular_factor;
-    w.hs += 0.5 * wave.z * wave.z;
-#endif
-    float phase = dot(wave.xy, xy) + wave.w;
-    w.slope -= wave.xy * wave.z * sin(phase);
-    w.squeeze -= water_leaving.w * wave.z * length(wave.xy) * cos(phase);
-  }
-#endif
-#if PATCHES
-  // Slopes at a place, not at an undisplaced point: normal_of() divides by 1 + squeeze.
-  float stretched = max(1.0 + w.squeeze, 0.12);
-  for (int n = 0; n < PATCHES; ++n) {
-    float lod = max(footprint - patch_cell[n].x - 0.3, 0.0);
-    vec4 slope = textureLod(patch_slope_map, patch_coordinate(n, place), lod);
-    w.slope += slope.xy * stretched;
-    w.variance.xy += 0.5 * max(slope.w - dot(slope.xy, slope.xy), 0.0);
-    w.churned += slope.z;
-  }
-#endif
-#if ATTENUATED
-  w.hs = 4.0 * sqrt(w.hs);
-#endif
-  return w;
-}
 
 vec3 sun_glitter(Facets f, vec2 mean, vec3 variance, vec3 v) {
   vec3 h = normalize(v + sun_direction.xyz);
@@ -195,75 +93,6 @@ Foam foam_at(vec2 xy, Waves w, float fold, float footprint_log2) {
   mask = mix(cover, mask * (0.36 + 0.64 * lace), froth);
   return Foam(mask, clamp(cover * 0.8, 0.0, 1.0), mix(1.0, 0.72 + 0.5 * fine, froth));
 }
-
-#if TERRAIN
-// The bottom as it is seen through the surface.
-struct Shallow {
-  Ground ground;
-  float depth;  // of the water under the surface point, negative on land [m]
-  float slope;  // of the ground there
-  vec3 bottom;  // radiance that it sends up through the surface
-  vec3 shown;   // its share in the water's own colour
-};
-
-// Bottom and water share the light that comes out of a shallow sea (Maritorena, Morel & Gentili 1994):
-// both dim with the way down and up. The ray is bent by the mean surface.
-Shallow shallow_at(vec2 place, float distance, vec3 direction, vec3 n, float footprint_log2) {
-  float height = eye.z + direction.z * distance + dot(place, place) / (2.0 * kEarthRadius);
-  float lod = max(footprint_log2 - ground_noise.z, 0.0);
-  vec4 here = ground_at(place, lod);
-  Shallow s;
-  s.depth = height - here.x;
-  s.slope = length(here.yz);
-  vec3 r = refract(direction, n, 1.0 / 1.34);
-  float down = max(-r.z, 0.35);
-  vec2 at = place + r.xy * (clamp(s.depth, 0.0, 30.0) / down);
-  vec4 there = ground_at(at, lod);
-  float deep = max(height - there.x, 0.0);
-  s.shown = exp(-water_kd.rgb * (deep + deep / down));
-  // What is looked at through water is always wet.
-  there.x = min(there.x, here.x);
-  s.ground = ground_of(at, there, footprint_log2);
-  float lit = max(dot(s.ground.normal, vec3(0.0, 0.0, 1.0)), 0.0);
-  // ground_of() has darkened it as wet: half of that is the surface's doing, which is counted here.
-  s.bottom = bottom_irradiance.rgb * s.ground.albedo * (2.0 * lit);
-  return s;
-}
-
-// Share of the surface that breaks because the water is shallow: most of it on the crests, and the
-// last of it as a seam where the water ends. Where waves are as high as the depth lets them be they
-// break: see kBreakerIndex in common/sea/shoaling.h.
-float surf_at(float depth, Waves w) {
-#if ATTENUATED
-  float hs = w.hs;
-#else
-  float hs = water_kd.w;
-#endif
-  float breaking = (1.0 - smoothstep(1.7, 2.8, depth / max(hs, 0.01))) * smoothstep(0.04, 0.3, hs);
-  float crest = smoothstep(-0.1, 0.3, -4.0 * w.squeeze);
-  float seam = (1.0 - smoothstep(0.02, 0.10 + 0.1 * water_kd.w, depth)) * smoothstep(0.1, 0.6, water_kd.w);
-  return max(breaking * (0.25 + 0.55 * crest), 0.42 * seam);
-}
-
-// Land in the water's mirror: where the ground rises above the reflected ray, at a few distances.
-vec3 with_land(vec3 sky, vec2 place, float height, vec3 r, float deviation) {
-  float run = max(length(r.xy), 1e-3);
-  vec2 ahead = r.xy / run;
-  float slope = abs(r.z) / run, hidden = 0.0, tall = 0.0;
-  for (int n = 0; n < 3; ++n) {
-    float far = 6.0 * pow(5.0, float(n)), lod = max(log2(far * 0.25) - ground_noise.z, 0.0);
-    float rise = ground_at(place + ahead * far, lod).x - height;
-    float over = rise - slope * far;
-    hidden = max(hidden, smoothstep(-0.5, 0.5, over / (far * (0.10 + 1.5 * deviation))) * smoothstep(0.2, 1.0, rise));
-    tall = max(tall, rise);
-  }
-  vec3 albedo = mix(vec3(0.17, 0.155, 0.125), vec3(0.085, 0.09, 0.04), smoothstep(2.5, 8.0, tall));
-  // Seen from below it is in the sky's light, and in the sun's when that is behind the eye.
-  float lit = 0.30 - 0.25 * dot(ahead, sun_direction.xy);
-  vec3 land = albedo / kPi * (0.75 * sky_irradiance.rgb + sun_irradiance.rgb * lit);
-  return mix(sky, land, hidden);
-}
-#endif
 
 #if HULLS
 // What stands in the water's mirror for a facet of the given slope, `reach` metres from it. Waves
