@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/sea/attenuation.h"
 #include "common/sea/constants.h"
 
 namespace onesea::client {
@@ -24,7 +25,6 @@ void FrameBuilder::Adopt(const std::shared_ptr<const sea::Components>& component
   foam_ = std::make_unique<sea::FoamWindow>(components, kFoamOptions);
   snapshots_ = std::make_unique<sea::SnapshotBuilder>(components);
   snapshot_ = nullptr;
-  attenuation_.emplace(components);
 }
 
 void FrameBuilder::FillWeather(render::RenderFrame& frame) const {
@@ -93,7 +93,7 @@ void FrameBuilder::Fill(const std::shared_ptr<const sea::Components>& components
   FillPatches(frame);
   frame.terrain =
       components->attenuation == nullptr ? nullptr : components->attenuation->shared_terrain();
-  frame.attenuation = attenuation_->At(time);
+  frame.attenuation = snapshots_->AttenuationAt(time);
   frame.water_level_m = water_level_m_;
 }
 

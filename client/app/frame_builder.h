@@ -2,12 +2,10 @@
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "client/render/render_frame.h"
-#include "common/sea/attenuation.h"
 #include "common/sea/components.h"
 #include "common/sea/foam.h"
 #include "common/sea/interaction_field.h"
@@ -69,7 +67,6 @@ class FrameBuilder {
   std::vector<std::uint64_t> versions_;  // of each field of interaction_
   std::uint64_t last_version_ = 0;
   double water_level_m_ = 0.0;
-  std::optional<sea::MovingAttenuation> attenuation_;
 };
 
 }  // namespace onesea::client

@@ -236,6 +236,10 @@ SnapshotBuilder::SnapshotBuilder(std::shared_ptr<const Components> components,
 
 SnapshotBuilder::~SnapshotBuilder() = default;
 
+const std::shared_ptr<const AttenuationGrid>& SnapshotBuilder::AttenuationAt(SimTime time) {
+  return impl_->attenuation->At(time);
+}
+
 // By value, so that the caller can give away the only owner.
 std::shared_ptr<const SeaSnapshot> SnapshotBuilder::At(
     SimTime time, QueryDetail detail,

@@ -97,6 +97,8 @@ class SnapshotBuilder {
   /// `recycle` if it is the only owner of it.
   std::shared_ptr<const SeaSnapshot> At(SimTime time, QueryDetail detail,
                                         std::shared_ptr<const SeaSnapshot> recycle = nullptr);
+  /// What a snapshot of that time says by attenuation(), without making one.
+  const std::shared_ptr<const AttenuationGrid>& AttenuationAt(SimTime time);
 
  private:
   struct Impl;
