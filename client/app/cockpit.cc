@@ -20,8 +20,7 @@ void Cockpit::Update(const SkipperInput& keys, const CameraInput& camera, SimTim
   const std::shared_ptr<const WorldView> world = source_.world();
   const WorldView nothing;
   const std::shared_ptr<const sea::Components> components = source_.components();
-  terrain_ =
-      components->attenuation == nullptr ? nullptr : components->attenuation->shared_terrain();
+  terrain_ = sea::TerrainOf(*components);
   const Outlook outlook{place(), At(0.0).yaw_rad};
   skipper_.Update(keys, outlook, world != nullptr ? *world : nothing,
                   {.now = now,

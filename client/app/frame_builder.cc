@@ -91,8 +91,7 @@ void FrameBuilder::Fill(const std::shared_ptr<const sea::Components>& components
   frame.choppiness = components->recipe.choppiness;
   FillWeather(frame);
   FillPatches(frame);
-  frame.terrain =
-      components->attenuation == nullptr ? nullptr : components->attenuation->shared_terrain();
+  frame.terrain = sea::TerrainOf(*components);
   frame.attenuation = snapshots_->AttenuationAt(time);
   frame.water_level_m = water_level_m_;
 }

@@ -32,10 +32,6 @@ absl::StatusOr<std::shared_ptr<const sea::Components>> BuildSameComponents(
       welcome.session.name, components->hash, welcome.component_hash));
 }
 
-std::shared_ptr<const sea::Terrain> TerrainOf(const sea::Components& components) {
-  return components.attenuation == nullptr ? nullptr : components.attenuation->shared_terrain();
-}
-
 // What every height gets; the server adds it in the same way.
 void AddLevel(double level_m, std::span<sea::SurfaceSample> samples) {
   for (sea::SurfaceSample& sample : samples) sample.height_m += static_cast<float>(level_m);
@@ -60,7 +56,8 @@ absl::Status LocalSea::Follow(const wire::Welcome& welcome) {
   next->missing_terrain = terrain == nullptr ? wanted : 0;
   const std::shared_ptr<const Version> current = version();
   if (current != nullptr && current->components->hash == welcome.component_hash &&
-      current->components->recipe == welcome.recipe && TerrainOf(*current->components) == terrain) {
+      current->components->recipe == welcome.recipe &&
+      sea::TerrainOf(*current->components) == terrain) {
     next->components = current->components;
     next->snapshots = current->snapshots;
   } else {
@@ -94,7 +91,7 @@ void LocalSea::Install(std::shared_ptr<const Version> next) {
 std::uint64_t LocalSea::missing_terrain() const { return version()->missing_terrain; }
 
 std::shared_ptr<const sea::Terrain> LocalSea::terrain() const {
-  return TerrainOf(*version()->components);
+  return sea::TerrainOf(*version()->components);
 }
 
 double LocalSea::WaterLevelAt(SimTime time) const {

@@ -190,6 +190,10 @@ std::shared_ptr<const Components> OverTerrain(std::shared_ptr<const Components> 
   return over;
 }
 
+std::shared_ptr<const Terrain> TerrainOf(const Components& components) {
+  return components.attenuation == nullptr ? nullptr : components.attenuation->shared_terrain();
+}
+
 const std::shared_ptr<const AttenuationGrid>& MovingAttenuation::At(SimTime time) {
   if (components_->attenuation == nullptr) return grid_;
   std::int64_t second = time.flicks / kFlicksPerSecond;

@@ -98,6 +98,9 @@ class Attenuation {
 std::shared_ptr<const Components> OverTerrain(std::shared_ptr<const Components> components,
                                               std::shared_ptr<const Terrain> terrain);
 
+/// What the waves are over; null: the open sea.
+std::shared_ptr<const Terrain> TerrainOf(const Components& components);
+
 /// The grid of one time after another. A grid holds for a whole second of sea time and changes with
 /// the weather alone, so that every process has the same one; in a change of weather over a minute
 /// it moves by up to 1/25 of the difference a second. Not thread-safe.
