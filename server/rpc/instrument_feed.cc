@@ -31,36 +31,40 @@ void InstrumentFeed::OnTick(const TickEvent& event) {
   if (tick % ticks_per_reading_ != 0) return;
   if (moments_.size() >= kMomentsMax) {
     ++moments_skipped_;
-    return;
+  } else {
+    moments_.push_back({tick, event.components, event.world, std::move(before),
+                        std::exchange(moments_skipped_, 0)});
   }
-  moments_.push_back(
-      {tick, event.components, event.world, std::move(before), std::exchange(moments_skipped_, 0)});
-  if (at_worker_) return;
-  // Refused: the worker is busy, and the next moment tries again.
-  at_worker_ = worker_.Post([self = shared_from_this()] { self->ReadMoments(); }).ok();
+  PostReading();
 }
 
-void InstrumentFeed::ReadMoments() {
-  while (true) {
-    Moment moment;
-    {
-      absl::MutexLock lock(&mutex_);
-      at_worker_ = !moments_.empty();
-      if (!at_worker_) break;
-      moment = std::move(moments_.front());
-      moments_.pop_front();
-    }
-    InstrumentMoment seen{.tick = moment.tick,
-                          .components = moment.components,
-                          .interaction = moment.world->interaction.get(),
-                          .water_level = water_level_,
-                          .bodies = moment.world->bodies,
-                          .before = {}};
-    if (moment.before != nullptr) seen.before = moment.before->bodies;
-    Keep({moment.tick, reader_.Read(*engine_, seen), moment.skipped_count});
-    Wake();
+// Refused: the worker is busy, and the next moment tries again.
+void InstrumentFeed::PostReading() {
+  if (at_worker_ || moments_.empty()) return;
+  at_worker_ = worker_.Post([self = shared_from_this()] { self->ReadMoment(); }).ok();
+}
+
+void InstrumentFeed::ReadMoment() {
+  Moment moment;
+  {
+    absl::MutexLock lock(&mutex_);
+    moment = std::move(moments_.front());
+    moments_.pop_front();
   }
-  Wake();  // if the session ended meanwhile, the stream waits for this
+  InstrumentMoment seen{.tick = moment.tick,
+                        .components = moment.components,
+                        .interaction = moment.world->interaction.get(),
+                        .water_level = water_level_,
+                        .bodies = moment.world->bodies,
+                        .before = {}};
+  if (moment.before != nullptr) seen.before = moment.before->bodies;
+  Keep({moment.tick, reader_.Read(*engine_, seen), moment.skipped_count});
+  {
+    absl::MutexLock lock(&mutex_);
+    at_worker_ = false;
+    PostReading();
+  }
+  Wake();  // also if the session ended meanwhile
 }
 
 void InstrumentFeed::Keep(Reading reading) {
@@ -91,7 +95,8 @@ std::optional<Reading> InstrumentFeed::Next() {
 
 absl::Status InstrumentFeed::status() const {
   absl::MutexLock lock(&mutex_);
-  const bool all_told = moments_.empty() && !at_worker_ && readings_.empty();
+  // Moments that the worker refused are never read once the session is over.
+  const bool all_told = !at_worker_ && readings_.empty();
   return all_told ? status_ : absl::OkStatus();
 }
 

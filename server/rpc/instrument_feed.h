@@ -26,7 +26,7 @@ struct Reading {
 
 /// 1. The session's thread hands over the moments that are to be read: it keeps references to what
 ///    is immutable anyway, and never waits.
-/// 2. A worker reads the instruments of one moment after the other.
+/// 2. A worker reads the instruments of one moment after the other, one a turn: it has other feeds.
 /// 3. The stream takes readings as it can write them.
 /// Both queues are bounded; what finds them full is left out and counted. Thread-safe.
 class InstrumentFeed final : public SessionObserver,
@@ -50,6 +50,8 @@ class InstrumentFeed final : public SessionObserver,
   std::optional<Reading> Next();
   /// Not OK: the session ended, and after the readings that are left there are no more.
   absl::Status status() const;
+  /// Calls `wake`, unless StopWaking() was called: that waits for a call which is under way.
+  void Wake();
   void StopWaking();
 
  private:
@@ -59,9 +61,9 @@ class InstrumentFeed final : public SessionObserver,
     std::shared_ptr<const world::WorldView> world, before;  // null: not known
     std::int64_t skipped_count = 0;
   };
-  void ReadMoments();
+  void PostReading() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  void ReadMoment();
   void Keep(Reading reading);
-  void Wake();
 
   const std::vector<wire::WaterLevel> water_level_;
   const std::int64_t ticks_per_reading_;

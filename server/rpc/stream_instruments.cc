@@ -49,11 +49,13 @@ void StreamInstrumentsReactor::Start(const wire::InstrumentRequest& request) {
   const absl::Status status = Observe(request);
   if (!status.ok()) return End(status);
   StartSendInitialMetadata();  // from here on no tick is missed
+  const std::shared_ptr<InstrumentFeed> feed = feed_;
   {
     absl::MutexLock lock(&mutex_);
     beginning_ = false;
   }
-  Advance();
+  // The call may be over and this reactor gone; the feed knows.
+  feed->Wake();
 }
 
 absl::Status StreamInstrumentsReactor::Observe(const wire::InstrumentRequest& request) {

@@ -9,7 +9,9 @@
 #include <thread>
 #include <vector>
 
+#include "absl/synchronization/notification.h"
 #include "common/sea/constants.h"
+#include "server/rpc/instrument_feed.h"
 #include "tests/rpc/rpc_fixture.h"
 
 namespace onesea::server {
@@ -283,6 +285,51 @@ TEST_F(InstrumentsTest, StreamsThatAreLeftAreLetGo) {
     EXPECT_EQ(stream->Finish().error_code(), grpc::StatusCode::CANCELLED);
     Step("calm");
   }
+}
+
+// Moments that wait while the worker takes nothing are read once it does; the rest is counted.
+TEST_F(InstrumentsTest, AFeedGoesOnAfterABusyWorker) {
+  const std::shared_ptr<SessionLoop> session = *registry.Find("calm");
+  wire::InstrumentRequest request;
+  request.session = "calm";
+  request.instruments = {wire::WaveGauge{{0.0, 0.0}}};
+  Worker worker;
+  absl::Notification released;
+  ASSERT_TRUE(worker.Post([&] { released.WaitForNotification(); }).ok());
+  while (worker.Post([] {}).ok()) {
+  }
+  const auto feed = std::make_shared<InstrumentFeed>(
+      request, *session, std::make_shared<QueryEngine>(sea::TransformKind::kOwn), worker, [] {});
+  const SessionView view = session->View();
+  TickEvent event;
+  event.world = view.world;
+  event.components = view.components;
+  constexpr int kRefused = 7;
+  for (int n = 0; n < kRefused; ++n) {
+    event.stamp.tick = view.tick + 1 + n;
+    feed->OnTick(event);
+  }
+  released.Notify();
+  while (!worker.Post([] {}).ok()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  event.stamp.tick = view.tick + 1 + kRefused;
+  feed->OnTick(event);
+  std::vector<Reading> readings;
+  for (int ms = 0; ms < 5000 && readings.size() < InstrumentFeed::kMomentsMax; ++ms) {
+    while (std::optional<Reading> reading = feed->Next()) readings.push_back(*std::move(reading));
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  ASSERT_EQ(readings.size(), InstrumentFeed::kMomentsMax);
+  EXPECT_EQ(readings.front().tick, view.tick + 1);
+  // What found the queue full is told with the next that didn't.
+  event.stamp.tick += 1;
+  feed->OnTick(event);
+  std::optional<Reading> last;
+  for (int ms = 0; ms < 5000 && !last; ++ms) {
+    last = feed->Next();
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  ASSERT_TRUE(last.has_value());
+  EXPECT_EQ(last->skipped_count, kRefused + 1 - static_cast<int>(InstrumentFeed::kMomentsMax));
 }
 
 }  // namespace
