@@ -70,7 +70,8 @@ void SessionLoop::Run() {
   }
 }
 
-// At least one lot, so that a session that can't keep up answers too.
+// At least one lot, so that a session that can't keep up answers too; no more when somebody waits
+// for the loop to go round.
 void SessionLoop::TakePoses(std::int64_t until_ns) {
   while (std::optional<WaitingPoses> next = NextPoses()) {
     absl::StatusOr<PosesResult> result;
@@ -81,8 +82,13 @@ void SessionLoop::TakePoses(std::int64_t until_ns) {
       result = open.ok() ? runner_.SetPoses(next->poses, now_ns) : open;
     }
     next->done(std::move(result));
-    if (clock_.MonotonicNs() >= until_ns) return;
+    if (clock_.MonotonicNs() >= until_ns || IsWoken()) return;
   }
+}
+
+bool SessionLoop::IsWoken() {
+  absl::MutexLock lock(&wake_mutex_);
+  return woken_;
 }
 
 std::optional<SessionLoop::WaitingPoses> SessionLoop::NextPoses() {

@@ -132,6 +132,7 @@ class SessionLoop {
   void TakePoses(std::int64_t until_ns);
   void WaitUntil(std::int64_t wake_ns);
   void Wake();
+  bool IsWoken();
   std::optional<WaitingPoses> NextPoses();
   void PublishView() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   absl::Status EndedStatus() const;
