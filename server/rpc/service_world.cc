@@ -1,5 +1,6 @@
 // Commands on the world and what is told of it.
 
+#include <type_traits>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
@@ -17,20 +18,31 @@
 namespace onesea::server {
 namespace {
 
+// What of the result this response has a field for.
+template <typename Response>
+void Fill(const CommandResult& result, Response* out) {
+  out->set_tick(result.tick);
+  if constexpr (requires { out->set_obstacle_id(result.id); }) out->set_obstacle_id(result.id);
+  if constexpr (requires { out->set_region_id(result.id); }) out->set_region_id(result.id);
+  if constexpr (requires { out->set_rope_id(result.id); }) out->set_rope_id(result.id);
+  if constexpr (requires { out->set_lease(result.lease); }) out->set_lease(result.lease);
+  if constexpr (std::is_same_v<Response, v1::SpawnBodyResponse>) {
+    out->set_body_id(result.id);
+    wire::ToProto(result.body->description, out->mutable_body());
+  }
+}
+
 // Gives a command to its session and answers when it has acted.
 template <typename Request, typename Response>
 void Command(Registry& registry, const Request& request, Response* response,
-             grpc::ServerUnaryReactor* reactor, void (*fill)(const CommandResult&, Response*)) {
+             grpc::ServerUnaryReactor* reactor) {
   const auto give = [&]() -> absl::Status {
     ONESEA_ASSIGN_OR_RETURN(wire::HeadedCommand headed, wire::FromProto(request));
     ONESEA_ASSIGN_OR_RETURN(const std::shared_ptr<SessionLoop> session,
                             registry.Find(headed.header.session));
     session->Command(std::move(headed.header), std::move(headed.command),
-                     [reactor, response, fill](const absl::StatusOr<CommandResult>& result) {
-                       if (result.ok()) {
-                         response->set_tick(result->tick);
-                         fill(*result, response);
-                       }
+                     [reactor, response](const absl::StatusOr<CommandResult>& result) {
+                       if (result.ok()) Fill(*result, response);
                        reactor->Finish(ToGrpc(result.status()));
                      });
     return absl::OkStatus();
@@ -42,8 +54,7 @@ template <typename Request, typename Response>
 grpc::ServerUnaryReactor* Command(grpc::CallbackServerContext* context, Registry& registry,
                                   const Request* request, Response* response) {
   grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
-  Command<Request, Response>(registry, *request, response, reactor,
-                             [](const CommandResult&, Response*) {});
+  Command(registry, *request, response, reactor);
   return reactor;
 }
 
@@ -54,15 +65,8 @@ grpc::ServerUnaryReactor* OneSeaService::SpawnBody(grpc::CallbackServerContext* 
                                                    const v1::SpawnBodyRequest* request,
                                                    v1::SpawnBodyResponse* response) {
   grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
-  const absl::Status posted = builder_.Post([this, request, response, reactor] {
-    Command<v1::SpawnBodyRequest, v1::SpawnBodyResponse>(
-        registry_, *request, response, reactor,
-        [](const CommandResult& result, v1::SpawnBodyResponse* out) {
-          out->set_body_id(result.id);
-          out->set_lease(result.lease);
-          wire::ToProto(result.body->description, out->mutable_body());
-        });
-  });
+  const absl::Status posted = builder_.Post(
+      [this, request, response, reactor] { Command(registry_, *request, response, reactor); });
   if (!posted.ok()) reactor->Finish(ToGrpc(posted));
   return reactor;
 }
@@ -112,35 +116,19 @@ grpc::ServerUnaryReactor* OneSeaService::ReleaseLease(grpc::CallbackServerContex
 grpc::ServerUnaryReactor* OneSeaService::SetObstacle(grpc::CallbackServerContext* context,
                                                      const v1::SetObstacleRequest* request,
                                                      v1::SetObstacleResponse* response) {
-  grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
-  Command<v1::SetObstacleRequest, v1::SetObstacleResponse>(
-      registry_, *request, response, reactor,
-      [](const CommandResult& result, v1::SetObstacleResponse* out) {
-        out->set_obstacle_id(result.id);
-      });
-  return reactor;
+  return Command(context, registry_, request, response);
 }
 
 grpc::ServerUnaryReactor* OneSeaService::AddRegion(grpc::CallbackServerContext* context,
                                                    const v1::AddRegionRequest* request,
                                                    v1::AddRegionResponse* response) {
-  grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
-  Command<v1::AddRegionRequest, v1::AddRegionResponse>(
-      registry_, *request, response, reactor,
-      [](const CommandResult& result, v1::AddRegionResponse* out) {
-        out->set_region_id(result.id);
-      });
-  return reactor;
+  return Command(context, registry_, request, response);
 }
 
 grpc::ServerUnaryReactor* OneSeaService::AddRope(grpc::CallbackServerContext* context,
                                                  const v1::AddRopeRequest* request,
                                                  v1::AddRopeResponse* response) {
-  grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
-  Command<v1::AddRopeRequest, v1::AddRopeResponse>(
-      registry_, *request, response, reactor,
-      [](const CommandResult& result, v1::AddRopeResponse* out) { out->set_rope_id(result.id); });
-  return reactor;
+  return Command(context, registry_, request, response);
 }
 
 grpc::ServerUnaryReactor* OneSeaService::RemoveRope(grpc::CallbackServerContext* context,
@@ -152,13 +140,7 @@ grpc::ServerUnaryReactor* OneSeaService::RemoveRope(grpc::CallbackServerContext*
 grpc::ServerUnaryReactor* OneSeaService::TakeLease(grpc::CallbackServerContext* context,
                                                    const v1::TakeLeaseRequest* request,
                                                    v1::TakeLeaseResponse* response) {
-  grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
-  Command<v1::TakeLeaseRequest, v1::TakeLeaseResponse>(
-      registry_, *request, response, reactor,
-      [](const CommandResult& result, v1::TakeLeaseResponse* out) {
-        out->set_lease(result.lease);
-      });
-  return reactor;
+  return Command(context, registry_, request, response);
 }
 
 grpc::ServerUnaryReactor* OneSeaService::ListBodies(grpc::CallbackServerContext* context,
