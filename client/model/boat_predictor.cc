@@ -14,7 +14,7 @@ constexpr double kSettleS = 2.0;    // so long an order's place among the others
 constexpr double kMissingMax = 10;  // m/s², rad/s²: a collision is not a tendency
 
 Vec3d TurnBetween(const Quaternion& from, const Quaternion& to) {
-  Quaternion q = to * Quaternion{from.w, -from.x, -from.y, -from.z};
+  Quaternion q = to * Inverse(from);
   if (q.w < 0.0) q = {-q.w, -q.x, -q.y, -q.z};
   const Vec3d axis{q.x, q.y, q.z};
   const double sine = Norm(axis);

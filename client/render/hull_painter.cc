@@ -9,10 +9,6 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-Vec3d Cross(Vec3d a, Vec3d b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
 std::array<float, 3> Floats(Vec3d v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }

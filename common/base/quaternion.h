@@ -41,14 +41,17 @@ inline Quaternion TurnBy(Vec3d v) {
   return {half.cos, scale * v.x, scale * v.y, scale * v.z};
 }
 
+/// The same turn the other way round.
+inline Quaternion Inverse(const Quaternion& q) { return {q.w, -q.x, -q.y, -q.z}; }
+
 inline Vec3d Rotate(const Quaternion& q, Vec3d v) {
-  const Quaternion turned = q * Quaternion{0.0, v.x, v.y, v.z} * Quaternion{q.w, -q.x, -q.y, -q.z};
+  const Quaternion turned = q * Quaternion{0.0, v.x, v.y, v.z} * Inverse(q);
   return {turned.x, turned.y, turned.z};
 }
 
 /// Angle of the turn from a to b [rad], [0, π]; good to 1e-8.
 inline double AngleBetween(const Quaternion& a, const Quaternion& b) {
-  const Quaternion between = b * Quaternion{a.w, -a.x, -a.y, -a.z};
+  const Quaternion between = b * Inverse(a);
   const double sine = Norm(Vec3d{between.x, between.y, between.z});
   return 2.0 * std::atan2(sine, std::fabs(between.w));
 }

@@ -29,6 +29,9 @@ struct Vec3d {
 
 inline double Dot(Vec2d a, Vec2d b) { return a.x * b.x + a.y * b.y; }
 inline double Dot(Vec3d a, Vec3d b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline Vec3d Cross(Vec3d a, Vec3d b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
 inline double Norm(Vec2d a) { return std::sqrt(Dot(a, a)); }
 inline double Norm(Vec3d a) { return std::sqrt(Dot(a, a)); }
 

@@ -15,6 +15,13 @@ bool AtRest(const BodyState& state) {
 
 }  // namespace
 
+const BodyView* FindBody(std::span<const BodyView> bodies, std::uint32_t id) {
+  const auto found =
+      std::lower_bound(bodies.begin(), bodies.end(), id,
+                       [](const BodyView& body, std::uint32_t i) { return body.state.id < i; });
+  return found != bodies.end() && found->state.id == id ? &*found : nullptr;
+}
+
 BodyEncoder::BodyEncoder(double tick_s, const BodyTolerance& tolerance)
     : tick_s_(tick_s), tolerance_(tolerance) {
   ONESEA_CHECK(tick_s > 0.0 && tolerance.refresh_s > 0.0);

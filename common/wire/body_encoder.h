@@ -31,6 +31,8 @@ struct BodyView {
   BodyState state;                       ///< finite
   std::shared_ptr<const BodyInfo> info;  ///< another pointer: it changed
 };
+/// Null: none of this id. Pre: ascending ids.
+const BodyView* FindBody(std::span<const BodyView> bodies, std::uint32_t id);
 
 /// Dead reckoning: sends a body when what receivers make of its last state would be too far off.
 /// Whoever applied every update since a keyframe is within the tolerance, plus half a millimetre

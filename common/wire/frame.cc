@@ -6,6 +6,7 @@
 #include "common/wire/proto_sea.h"
 #include "common/wire/proto_session.h"
 #include "common/wire/proto_update.h"
+#include "common/wire/proto_world.h"
 #include "onesea/v1/frame.pb.h"
 
 namespace onesea::wire {
@@ -47,11 +48,7 @@ void SetWelcome(const Welcome& welcome, v1::Welcome* out) {
   ToProto(welcome.recipe, out->mutable_recipe());
   out->set_component_hash(welcome.component_hash);
   ToProto(welcome.session, out->mutable_session());
-  for (const WaterLevel& level : welcome.water_level) {
-    v1::WaterLevel* to = out->add_water_level();
-    to->set_time_s(level.time_s);
-    to->set_level_m(level.level_m);
-  }
+  for (const WaterLevel& level : welcome.water_level) ToProto(level, out->add_water_level());
 }
 
 absl::StatusOr<Welcome> ReadWelcome(const v1::Welcome& proto) {
@@ -63,7 +60,7 @@ absl::StatusOr<Welcome> ReadWelcome(const v1::Welcome& proto) {
     return absl::InvalidArgumentError("welcome.session.tick_rate_hz: differs from the recipe's");
   }
   for (const v1::WaterLevel& level : proto.water_level()) {
-    welcome.water_level.push_back({level.time_s(), level.level_m()});
+    welcome.water_level.push_back(FromProto(level));
   }
   ONESEA_RETURN_IF_ERROR(ValidateWaterLevel("welcome.", welcome.water_level));
   return welcome;

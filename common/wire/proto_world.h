@@ -20,6 +20,8 @@ void ToProto(const RegionSpec& region, v1::RegionSpec* out);
 absl::StatusOr<RegionSpec> FromProto(const v1::RegionSpec& proto);
 void ToProto(const RopeSpec& rope, v1::Rope* out);
 RopeSpec FromProto(const v1::Rope& proto);
+void ToProto(const WaterLevel& level, v1::WaterLevel* out);
+WaterLevel FromProto(const v1::WaterLevel& proto);
 
 /// A command with its header, validated.
 struct HeadedCommand {

@@ -85,6 +85,13 @@ RopeSpec FromProto(const v1::Rope& proto) {
   return rope;
 }
 
+void ToProto(const WaterLevel& level, v1::WaterLevel* out) {
+  out->set_time_s(level.time_s);
+  out->set_level_m(level.level_m);
+}
+
+WaterLevel FromProto(const v1::WaterLevel& proto) { return {proto.time_s(), proto.level_m()}; }
+
 void ToProto(const WorldSpec& world, v1::WorldSpec* out) {
   // A path is of one machine; what is read from it has its own message.
   for (const RegionSpec& region : world.regions) ToProto(region, out->add_regions());
@@ -93,11 +100,7 @@ void ToProto(const WorldSpec& world, v1::WorldSpec* out) {
     ToProto(body.body, to->mutable_body());
     ToProto(body.start, to->mutable_start());
   }
-  for (const WaterLevel& level : world.water_level) {
-    v1::WaterLevel* to = out->add_water_level();
-    to->set_time_s(level.time_s);
-    to->set_level_m(level.level_m);
-  }
+  for (const WaterLevel& level : world.water_level) ToProto(level, out->add_water_level());
   for (const RopeSpec& rope : world.ropes) ToProto(rope, out->add_ropes());
   if (!world.body_wind_m_per_s) return;
   const Vec2d wind = *world.body_wind_m_per_s;
@@ -124,7 +127,7 @@ absl::StatusOr<WorldSpec> FromProto(const v1::WorldSpec& proto, const std::strin
     world.bodies.push_back({std::move(read), FromProto(body.start())});
   }
   for (const v1::WaterLevel& level : proto.water_level()) {
-    world.water_level.push_back({level.time_s(), level.level_m()});
+    world.water_level.push_back(FromProto(level));
   }
   for (const v1::Rope& rope : proto.ropes()) world.ropes.push_back(FromProto(rope));
   if (proto.has_body_wind()) {

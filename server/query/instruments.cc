@@ -15,19 +15,6 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-const wire::BodyView* Find(std::span<const wire::BodyView> bodies, std::uint32_t id) {
-  const auto found = std::lower_bound(
-      bodies.begin(), bodies.end(), id,
-      [](const wire::BodyView& body, std::uint32_t i) { return body.state.id < i; });
-  return found != bodies.end() && found->state.id == id ? &*found : nullptr;
-}
-
-Vec3d Cross(Vec3d a, Vec3d b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
-Quaternion Back(const Quaternion& turn) { return {turn.w, -turn.x, -turn.y, -turn.z}; }
-
 Vec3d ArmOf(const wire::BodyView& body, Vec3d position_m) {
   return Rotate(body.state.turn, position_m - body.info->centre_of_mass_m);
 }
@@ -45,8 +32,8 @@ double* Put(const Quaternion& turn, double* to) {
 }
 
 void ReadImu(const wire::Imu& imu, const InstrumentMoment& moment, double* to) {
-  const wire::BodyView* now = Find(moment.bodies, imu.body_id);
-  const wire::BodyView* before = Find(moment.before, imu.body_id);
+  const wire::BodyView* now = wire::FindBody(moment.bodies, imu.body_id);
+  const wire::BodyView* before = wire::FindBody(moment.before, imu.body_id);
   if (now == nullptr || before == nullptr) return;
   const double per_s = moment.components->recipe.tick_rate_hz;
   const wire::BodyState& state = now->state;
@@ -55,13 +42,13 @@ void ReadImu(const wire::Imu& imu, const InstrumentMoment& moment, double* to) {
   const Vec3d spin_up = per_s * (spin - before->state.spin_rad_per_s);
   const Vec3d felt =
       change + Cross(spin_up, arm) + Cross(spin, Cross(spin, arm)) + Vec3d{0, 0, sea::kGravity};
-  to = Put(Rotate(Back(state.turn), felt), to);
-  to = Put(Rotate(Back(state.turn), spin), to);
+  to = Put(Rotate(Inverse(state.turn), felt), to);
+  to = Put(Rotate(Inverse(state.turn), spin), to);
   Put(state.turn, to);
 }
 
 void ReadMotion(const wire::Motion& motion, const InstrumentMoment& moment, double* to) {
-  const wire::BodyView* body = Find(moment.bodies, motion.body_id);
+  const wire::BodyView* body = wire::FindBody(moment.bodies, motion.body_id);
   if (body == nullptr) return;
   to = Put(body->state.position_m, to);
   to = Put(body->state.turn, to);
@@ -107,7 +94,8 @@ void InstrumentReader::ReadGauges(QueryEngine& engine, const InstrumentMoment& m
   wire::QueryRequest request;
   request.tick = moment.tick;
   for (Gauge& gauge : gauges_) {
-    const wire::BodyView* body = gauge.body_id == 0 ? nullptr : Find(moment.bodies, gauge.body_id);
+    const wire::BodyView* body =
+        gauge.body_id == 0 ? nullptr : wire::FindBody(moment.bodies, gauge.body_id);
     const double gone = gauge.body_id != 0 && body == nullptr ? kNan : 0.0;
     gauge.place_m = gauge.position_m + Vec3d{gone, gone, gone};
     if (body != nullptr) gauge.place_m = body->state.position_m + ArmOf(*body, gauge.position_m);

@@ -230,14 +230,8 @@ std::optional<Tick> QueryEngine::NoteAsked(Tick now) {
 }
 
 std::shared_ptr<const sea::SeaSnapshot> QueryEngine::SnapshotOf(
-    const std::shared_ptr<const sea::Components>& components, Tick tick) {
-  return snapshots_.Get(components, TimeOfTick(tick, components->recipe.tick_rate_hz),
-                        sea::QueryDetail::kHeight);
-}
-
-void QueryEngine::Prepare(const std::shared_ptr<const sea::Components>& components, Tick tick,
-                          sea::QueryDetail detail) {
-  snapshots_.Get(components, TimeOfTick(tick, components->recipe.tick_rate_hz), detail);
+    const std::shared_ptr<const sea::Components>& components, Tick tick, sea::QueryDetail detail) {
+  return snapshots_.Get(components, TimeOfTick(tick, components->recipe.tick_rate_hz), detail);
 }
 
 }  // namespace onesea::server

@@ -42,18 +42,15 @@ class QueryEngine {
 
   /// Thread-safe. Notes that the present tick `now` was asked for; guesses when it will be next:
   /// as many ticks later as this was after the last time. Nothing if the tick was noted already or
-  /// those who ask are slower than kStrideMax. Whoever Prepare()s that tick spares the next of them
-  /// the synthesis.
+  /// those who ask are slower than kStrideMax. Whoever asks SnapshotOf() that tick spares the next
+  /// of them the synthesis.
   std::optional<Tick> NoteAsked(Tick now);
   static constexpr Tick kStrideMax = 8;
 
-  /// Thread-safe. Makes the snapshot that a request at this tick will need.
-  void Prepare(const std::shared_ptr<const sea::Components>& components, Tick tick,
-               sea::QueryDetail detail);
-
-  /// Thread-safe. What answers for this tick are read from.
+  /// Thread-safe. What answers for this tick are read from; made here if nobody asked yet.
   std::shared_ptr<const sea::SeaSnapshot> SnapshotOf(
-      const std::shared_ptr<const sea::Components>& components, Tick tick);
+      const std::shared_ptr<const sea::Components>& components, Tick tick,
+      sea::QueryDetail detail = sea::QueryDetail::kHeight);
 
   std::int64_t snapshots_built() const { return snapshots_.built_count(); }
 

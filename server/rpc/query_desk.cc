@@ -41,7 +41,7 @@ void QueryDesk::PrepareNext(const std::shared_ptr<SessionLoop>& session,
       .Post([this, session, engine, next = *next, detail, begin_ns] {
         clock_.SleepUntil(begin_ns);
         const SessionView view = session->View();
-        if (view.tick < next) engine->Prepare(view.components, next, detail);
+        if (view.tick < next) engine->SnapshotOf(view.components, next, detail);
       })
       .IgnoreError();  // too busy: the asker makes it
 }

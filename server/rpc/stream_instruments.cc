@@ -1,6 +1,5 @@
 #include "server/rpc/stream_instruments.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
@@ -24,10 +23,7 @@ absl::Status CheckBodies(const wire::InstrumentRequest& request,
                          const std::vector<wire::BodyView>& bodies) {
   for (std::size_t n = 0; n < request.instruments.size(); ++n) {
     const std::uint32_t id = BodyOf(request.instruments[n]);
-    const bool known = id == 0 || std::ranges::any_of(bodies, [id](const wire::BodyView& body) {
-                         return body.state.id == id;
-                       });
-    if (known) continue;
+    if (id == 0 || wire::FindBody(bodies, id) != nullptr) continue;
     return absl::NotFoundError(absl::StrCat("instruments[", n, "].body_id: there is no body ", id));
   }
   return absl::OkStatus();

@@ -213,7 +213,7 @@ struct Contacts::Impl {
   }
 
   static Vec3d MeanSpin(const Quaternion& from, const Quaternion& to, double step_s) {
-    Quaternion d = to * Quaternion{from.w, -from.x, -from.y, -from.z};
+    Quaternion d = to * Inverse(from);
     if (d.w < 0.0) d = {-d.w, -d.x, -d.y, -d.z};
     const Vec3d axis{d.x, d.y, d.z};
     const double sine = Norm(axis);

@@ -11,9 +11,6 @@
 /// operations; sine and cosine come from real_math, so the bits don't depend on the machine's libm.
 namespace onesea::world {
 
-inline Vec3d Cross(Vec3d a, Vec3d b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
 inline bool IsFinite(Vec3d v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }

@@ -138,7 +138,7 @@ TEST_F(QueryEngineTest, OneInstantIsSynthesisedOnce) {
 TEST_F(QueryEngineTest, APreparedTickIsAnsweredWithoutASynthesis) {
   const QueryAnswer unprepared = *engine.Answer(components, 601, At({{5.0, 6.0}}));
   QueryEngine other;
-  other.Prepare(components, 601, sea::QueryDetail::kHeight);
+  other.SnapshotOf(components, 601);
   EXPECT_EQ(other.snapshots_built(), 1);
   EXPECT_EQ(other.Answer(components, 601, At({{5.0, 6.0}}))->height_m, unprepared.height_m);
   EXPECT_EQ(other.snapshots_built(), 1);
