@@ -109,7 +109,7 @@ absl::StatusOr<HullPass> HullPass::Create() {
   for (std::size_t n = 0; n < programs.size(); ++n) {
     auto program =
         n < 6    ? ShaderProgram::Build({"frame.glsl", "hulls.vert.glsl"},
-                                        {"frame.glsl", "sky.glsl", "hulls.frag.glsl"},
+                                        {"frame.glsl", "sky.glsl", "depth.glsl", "hulls.frag.glsl"},
                                         {kKinds[n % 3][0], kKinds[n % 3][1],
                                       n < 3 ? "PLAIN 0" : "PLAIN 1", "kNearest 0.2"})
         : n == 6 ? ShaderProgram::Build({"frame.glsl", "attenuation.glsl", "hulls_water.vert.glsl"},

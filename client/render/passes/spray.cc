@@ -21,9 +21,10 @@ absl::StatusOr<SprayPass> SprayPass::Create() {
   const std::string drops = absl::StrCat("kDrops ", kDrops);
   std::array<ShaderProgram, 2> programs;
   for (std::size_t n = 0; n < programs.size(); ++n) {
-    auto program = ShaderProgram::Build(
-        {"frame.glsl", "spray.vert.glsl"}, {"frame.glsl", "sky.glsl", "spray.frag.glsl"},
-        {n == 0 ? "SAMPLES 1" : "SAMPLES 4", drops, "kNearest 0.2"});
+    auto program =
+        ShaderProgram::Build({"frame.glsl", "spray.vert.glsl"},
+                             {"frame.glsl", "sky.glsl", "depth.glsl", "spray.frag.glsl"},
+                             {n == 0 ? "SAMPLES 1" : "SAMPLES 4", drops, "kNearest 0.2"});
     if (!program.ok()) return program.status();
     programs[n] = std::move(*program);
   }

@@ -8,12 +8,12 @@
 namespace onesea::render {
 
 absl::StatusOr<SurfaceGridPass> SurfaceGridPass::Create() {
-  auto open = ShaderProgram::Build({"frame.glsl", "surface_grid.vert.glsl"},
+  auto open = ShaderProgram::Build({"frame.glsl", "depth.glsl", "surface_grid.vert.glsl"},
                                    {"frame.glsl", "surface_grid.frag.glsl"}, {"ATTENUATED 0"});
   if (!open.ok()) return open.status();
-  auto attenuated =
-      ShaderProgram::Build({"frame.glsl", "attenuation.glsl", "surface_grid.vert.glsl"},
-                           {"frame.glsl", "surface_grid.frag.glsl"}, {"ATTENUATED 1"});
+  auto attenuated = ShaderProgram::Build(
+      {"frame.glsl", "attenuation.glsl", "depth.glsl", "surface_grid.vert.glsl"},
+      {"frame.glsl", "surface_grid.frag.glsl"}, {"ATTENUATED 1"});
   if (!attenuated.ok()) return attenuated.status();
   return SurfaceGridPass(std::move(*open), std::move(*attenuated));
 }

@@ -94,8 +94,9 @@ std::vector<TerrainTile> ChooseTerrainTiles(const GroundTextures& ground, const 
 
 absl::StatusOr<TerrainPass> TerrainPass::Create() {
   const std::string quads = absl::StrCat("kTileQuads ", kQuads);
-  auto geometry = ShaderProgram::Build({"frame.glsl", "terrain.vert.glsl"}, {"terrain.frag.glsl"},
-                                       {quads, "kNearest 0.2"});
+  auto geometry =
+      ShaderProgram::Build({"frame.glsl", "terrain.vert.glsl"}, {"depth.glsl", "terrain.frag.glsl"},
+                           {quads, "kNearest 0.2"});
   if (!geometry.ok()) return geometry.status();
   std::array<ShaderProgram, 2> shades;
   for (std::size_t n = 0; n < shades.size(); ++n) {

@@ -56,3 +56,14 @@ vec2 tile_coordinate(int c, vec2 xy) {
 vec3 patch_coordinate(int n, vec2 xy) {
   return vec3(xy * patch_map[n].zw + patch_map[n].xy, patch_cell[n].y);
 }
+
+// `moved` and what the regular waves, times `factor`, add to it at the undisplaced point `xy`.
+vec3 with_regular_waves(vec3 moved, vec2 xy, float factor) {
+  int regulars = int(counts.y);
+  for (int n = 0; n < regulars; ++n) {
+    vec4 wave = regular[n];
+    float phase = dot(wave.xy, xy) + wave.w;
+    moved += vec3(-water_leaving.w * normalize(wave.xy) * sin(phase), cos(phase)) * (wave.z * factor);
+  }
+  return moved;
+}

@@ -34,8 +34,8 @@ float before_sea(float distance) {
   }
   return share / float(SAMPLES);
 #else
-  float log_depth = texelFetch(depth_map, pixel, 0).r;
-  float sea = log_depth < 1.0 ? (exp2(log_depth * log2(1.0 + 120000.0 * 8.0)) - 1.0) / 8.0 : 1e6;
+  float there = texelFetch(depth_map, pixel, 0).r;
+  float sea = there < 1.0 ? depth_of(there) : 1e6;
   return clamp(0.5 + (sea * distance / depth - distance) / soft, 0.0, 1.0);
 #endif
 }
@@ -97,8 +97,7 @@ void main() {
 #endif
 
   if (eye.z < 0.0) {
-    vec3 passed = exp(-distance * vec3(0.30, 0.09, 0.07));
-    colour = mix(3.0 * water_leaving.rgb * (1.0 + 0.6 * direction.z), colour, passed);
+    colour = mix(water_body(direction), colour, water_passed(distance));
   } else {
     colour = through_air(colour, direction, distance);
   }

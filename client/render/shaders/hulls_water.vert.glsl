@@ -10,18 +10,15 @@ float water_height(vec2 xy, float lod_m) {
   float height = 0.0;
   int cascades = int(counts.x);
   for (int step = 0; step < 2; ++step) {
+    vec2 from = xy - moved;
     vec3 sum = vec3(0.0);
+    vec4 factors = wave_factors(from, 0);
     for (int c = 0; c < cascades; ++c) {
       float lod = max(lod_m - cascade_map[c].w, 0.0);
-      sum += wave_factors(xy - moved, c / 4)[c & 3] * textureLod(displacement_map, vec3(tile_coordinate(c, xy - moved), float(c)), lod).xyz;
+      if (c == 4) factors = wave_factors(from, 1);
+      sum += factors[c & 3] * textureLod(displacement_map, vec3(tile_coordinate(c, from), float(c)), lod).xyz;
     }
-    int regulars = int(counts.y);
-    float regular_factor = wave_factors(xy - moved, cascades / 4)[cascades & 3];
-    for (int n = 0; n < regulars; ++n) {
-      vec4 wave = regular[n];
-      float phase = dot(wave.xy, xy - moved) + wave.w;
-      sum += vec3(-water_leaving.w * normalize(wave.xy) * sin(phase), cos(phase)) * (wave.z * regular_factor);
-    }
+    sum = with_regular_waves(sum, from, wave_factors(from, cascades / 4)[cascades & 3]);
     moved = sum.xy;
     height = sum.z;
   }

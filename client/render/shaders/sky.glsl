@@ -36,3 +36,9 @@ vec3 through_air(vec3 radiance, vec3 direction, float distance) {
   vec3 glow = textureLod(haze_map, vec2(turns + 0.5 / kSkyMapSize.x, 0.5), 0.0).rgb;
   return mix(glow, radiance, passed);
 }
+
+// Water without end under the surface, seen along `direction`.
+vec3 water_body(vec3 direction) { return 3.0 * water_leaving.rgb * (1.0 + 0.6 * direction.z); }
+
+// Share of light that comes through `distance` metres of water.
+vec3 water_passed(float distance) { return exp(-distance * vec3(0.30, 0.09, 0.07)); }

@@ -20,8 +20,8 @@ void main() {
   vec4 s = texelFetch(surface_map, pixel, 0);
   float behind = s.w != 0.0 ? abs(s.z) - distance : 1e6;
 #else
-  float log_depth = texelFetch(depth_map, pixel, 0).r;
-  float behind = log_depth < 1.0 ? (exp2(log_depth * log2(1.0 + 120000.0 * 8.0)) - 1.0) / 8.0 - depth : 1e6;
+  float there = texelFetch(depth_map, pixel, 0).r;
+  float behind = there < 1.0 ? depth_of(there) - depth : 1e6;
 #endif
   float round = max(1.0 - dot(corner, corner), 0.0);
   float torn = texture(noise_map, noise_at).r;

@@ -187,12 +187,8 @@ vec3 shade_below(vec2 xy, vec2 place, float distance, float stretch, vec3 direct
     float fresnel = fresnel_exact(out_cosine);
     colour = mix(sky_at(normalize(out_direction), 0.1) * 1.8, below, fresnel);
   }
-  vec3 passed = exp(-distance * vec3(0.30, 0.09, 0.07));
-  return mix(below, colour, passed);
+  return mix(below, colour, water_passed(distance));
 }
-
-// On a ray from under water that meets no surface.
-vec3 water_body(vec3 direction) { return 3.0 * water_leaving.rgb * (1.0 + 0.6 * direction.z); }
 #endif
 
 // `s` as surface_grid.frag.glsl writes it.

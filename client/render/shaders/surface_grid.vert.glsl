@@ -30,18 +30,12 @@ void main() {
 #endif
     moved += wave;
   }
-  int regulars = int(counts.y);
 #if ATTENUATED
   float regular_factor = wave_factors(xy, cascades / 4)[cascades & 3];
+#else
+  const float regular_factor = 1.0;
 #endif
-  for (int n = 0; n < regulars; ++n) {
-    vec4 wave = regular[n];
-#if ATTENUATED
-    wave.z *= regular_factor;
-#endif
-    float phase = dot(wave.xy, xy) + wave.w;
-    moved += vec3(-water_leaving.w * normalize(wave.xy) * sin(phase), cos(phase)) * wave.z;
-  }
+  moved = with_regular_waves(moved, xy, regular_factor);
 
   displacement = moved.xy;
   vec2 flat_xy = xy + moved.xy;
@@ -54,7 +48,6 @@ void main() {
   vec3 world = vec3(flat_xy, moved.z - drop);
   offset_eye = world - eye.xyz;
   gl_Position = clip_from_world * vec4(world, 1.0);
-  // Logarithmic depth: centimetres at the lens, and no fighting between waves kilometres away.
   float w = gl_Position.w;
-  gl_Position.z = (2.0 * log2(max(1e-6, 1.0 + w * 8.0)) / log2(1.0 + 120000.0 * 8.0) - 1.0) * w;
+  gl_Position.z = (2.0 * log_depth(w) - 1.0) * w;
 }

@@ -6,5 +6,5 @@ out vec4 surface;
 
 void main() {
   surface = vec4(0.0, 0.0, min(length(offset_eye), 60000.0), -1.0);
-  gl_FragDepth = log2(1.0 + depth * 8.0) / log2(1.0 + 120000.0 * 8.0);
+  gl_FragDepth = log_depth(depth);
 }

@@ -16,8 +16,7 @@ vec3 shade(float distance, vec3 direction) {
   Ground g = ground_of(xy, ground, footprint);
   if (eye.z < 0.0) {
     vec3 light = bottom_irradiance.rgb * (1.0 / 0.54) * exp(water_kd.rgb * min(ground.x, 0.0));
-    vec3 passed = exp(-distance * vec3(0.30, 0.09, 0.07));
-    return mix(3.0 * water_leaving.rgb * (1.0 + 0.6 * direction.z), g.albedo * light * max(g.normal.z, 0.0), passed);
+    return mix(water_body(direction), g.albedo * light * max(g.normal.z, 0.0), water_passed(distance));
   }
   return through_air(ground_light(g, direction), direction, distance);
 }
