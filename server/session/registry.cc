@@ -41,9 +41,9 @@ absl::StatusOr<std::shared_ptr<SessionLoop>> Registry::Create(SessionSpec spec) 
     return components.ok() ? world.status() : components.status();
   }
   if (spec.epoch_utc_ns == 0) spec.epoch_utc_ns = clock_.UtcNs();
-  auto session = std::make_shared<SessionLoop>(
-      std::move(spec), sea::OverTerrain(*std::move(components), (*world)->terrain()), clock_,
-      transform_, *std::move(world));
+  auto over_terrain = sea::OverTerrain(*std::move(components), (*world)->terrain());
+  auto session = std::make_shared<SessionLoop>(std::move(spec), std::move(over_terrain), clock_,
+                                               transform_, *std::move(world));
   absl::MutexLock lock(&mutex_);
   sessions_[name] = session;
   return session;

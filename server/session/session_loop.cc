@@ -288,9 +288,10 @@ void SessionLoop::SetPoses(std::vector<wire::BodyPose> poses, PosesDone done) {
     } else {
       poses_.push_back({std::move(poses), std::move(done)});
       changed_.Signal();
+      return;
     }
   }
-  if (!refused.ok()) done(refused);
+  done(refused);
 }
 
 std::shared_ptr<const std::string> SessionLoop::FindMesh(std::uint64_t hash) const {
