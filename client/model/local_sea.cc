@@ -108,11 +108,16 @@ std::shared_ptr<const sea::SeaSnapshot> LocalSea::SnapshotAt(SimTime time,
   return version()->snapshots->At(time, detail);
 }
 
-void LocalSea::Sample(std::span<const Vec2d> places, SimTime time, sea::QueryDetail detail,
-                      std::span<sea::SurfaceSample> out) const {
+std::uint32_t LocalSea::Sample(std::span<const Vec2d> places, SimTime time, sea::QueryDetail detail,
+                               std::span<sea::SurfaceSample> out) const {
   const std::shared_ptr<const Version> version = this->version();
   version->snapshots->At(time, detail)->Sample(places, out);
-  AddLevel(wire::WaterLevelAt(version->water_level, time), out);
+  std::uint32_t layers = sea::kLayerSpectral;
+  if (TerrainOf(*version->components) != nullptr) layers |= sea::kLayerTerrain;
+  const double level_m = wire::WaterLevelAt(version->water_level, time);
+  if (level_m == 0.0) return layers;
+  AddLevel(level_m, out);
+  return layers | sea::kLayerWaterLevel;
 }
 
 void LocalSea::SampleAtDepth(std::span<const Vec2d> places, std::span<const double> depth_m,

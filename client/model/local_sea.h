@@ -75,9 +75,10 @@ class LocalSea {
   /// (tests/model measures it).
   double HeightNear(Vec2d place, SimTime time) const;
 
-  /// out[n] answers places[n] at exactly `time`; `detail` says which members are filled in.
-  void Sample(std::span<const Vec2d> places, SimTime time, sea::QueryDetail detail,
-              std::span<sea::SurfaceSample> out) const;
+  /// out[n] answers places[n] at exactly `time`; `detail` says which members are filled in. Answers
+  /// the layers that are in the heights: a bit set of sea::kLayer...
+  std::uint32_t Sample(std::span<const Vec2d> places, SimTime time, sea::QueryDetail detail,
+                       std::span<sea::SurfaceSample> out) const;
 
   /// out[n] answers places[n], depth_m[n] >= 0 below z = 0: the exact sum over all waves, about
   /// 15 µs a place. Where Sample()'s height is lower than that there is no water, and the answer

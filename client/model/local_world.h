@@ -21,26 +21,46 @@ namespace onesea::client {
 /// renderer takes one per picture.
 class WorldView {
  public:
-  /// The interaction layer at a place, to be added to the spectral sea: SampleInteraction, linear
-  /// in time between the last two updates and constant outside of them. Velocities are not
-  /// streamed: 0.
-  sea::InteractionSample SampleAt(Vec2d place, SimTime time) const;
+  /// Nothing is known of the time after the last update: the layer stands still for so long, then
+  /// it fades away within as much again.
+  static constexpr double kStandsS = wire::BodyTable::kExtrapolationMaxS;
+
+  /// The interaction layer at some time, linear between the updates that are kept; points into the
+  /// view.
+  struct Moment {
+    const sea::InteractionSnapshot* before = nullptr;  ///< null: nothing is known, or there is none
+    const sea::InteractionSnapshot* after = nullptr;   ///< may be the same
+    double share = 0.0;                                ///< of the way from one to the other, [0, 1]
+    double strength = 1.0;                             ///< less than 1: fading
+    /// Bound [m] of |height - the server's| at the time of an update, in regions that come with
+    /// every frame; waves of ω add (ω span)²/8 of themselves in the middle of two.
+    double height_error_m = 0.0;
+    explicit operator bool() const { return before != nullptr; }
+  };
+  Moment MomentAt(SimTime time) const;
+  /// At a place, to be added to the spectral sea. Velocities are not streamed: 0.
+  static sea::InteractionSample SampleAt(const Moment& moment, Vec2d place);
 
   /// Heights and foam of the last update; for renderers that make textures of them.
-  const sea::InteractionSnapshot& interaction() const { return *newest_; }
-  std::shared_ptr<const sea::InteractionSnapshot> shared_interaction() const { return newest_; }
+  const sea::InteractionSnapshot& interaction() const { return *layers_.back().snapshot; }
+  std::shared_ptr<const sea::InteractionSnapshot> shared_interaction() const {
+    return layers_.back().snapshot;
+  }
   /// One's place and motion at a time: Body::At. Ascending by id.
   std::span<const wire::BodyTable::Body> bodies() const { return bodies_.bodies(); }
   const wire::BodyTable::Body* FindBody(std::uint32_t id) const { return bodies_.Find(id); }
   double water_level_m() const { return water_level_m_; }
-  SimTime time() const { return time_; }  ///< of the last update
+  SimTime time() const { return layers_.back().time; }  ///< of the last update
 
  private:
   friend class LocalWorld;
-  SimTime before_time_, time_;
-  std::shared_ptr<const sea::InteractionSnapshot> before_ =
-      std::make_shared<const sea::InteractionSnapshot>();
-  std::shared_ptr<const sea::InteractionSnapshot> newest_ = before_;
+  struct Layer {
+    SimTime time;
+    std::shared_ptr<const sea::InteractionSnapshot> snapshot;
+    double height_error_m = 0.0;
+  };
+  // Of every update that is kept, ascending times; never empty.
+  std::vector<Layer> layers_ = {{{}, std::make_shared<const sea::InteractionSnapshot>(), 0.0}};
   wire::BodyTable bodies_;
   double water_level_m_ = 0.0;
 };
@@ -50,6 +70,10 @@ class WorldView {
 /// Thread-safe: the network thread applies, render and game threads ask.
 class LocalWorld {
  public:
+  /// Keeps the interaction layer of the last `past` of sea time (4 bytes a cell and update, 8 with
+  /// foam), and the last two updates at least.
+  explicit LocalWorld(SimTime past = {}) : past_(past) {}
+
   /// Frames must come in order. A keyframe replaces everything, and without a world it empties
   /// everything. An error (InvalidArgument: bytes that no server sends; FailedPrecondition: a frame
   /// that is missing) leaves the view as it was and the world not current() until a keyframe
@@ -66,8 +90,10 @@ class LocalWorld {
  private:
   absl::Status ApplyWorld(const wire::WorldUpdate& update, bool keyframe, int tick_rate_hz)
       ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  void AddLayer(WorldView::Layer layer, WorldView& view) const;
   void AddSpray(const std::vector<wire::Spray>& spray) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
 
+  const SimTime past_;
   mutable absl::Mutex mutex_;
   wire::TileStore tiles_ ABSL_GUARDED_BY(mutex_);
   std::shared_ptr<const WorldView> view_ ABSL_GUARDED_BY(mutex_) =

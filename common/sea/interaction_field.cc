@@ -158,4 +158,11 @@ InteractionSample SampleInteraction(const InteractionSnapshot& snapshot, Vec2d p
   return sum;
 }
 
+Vec3d Tilted(Vec3d normal, Vec2d slope) {
+  const double up = std::max(normal.z, 1e-3);
+  const double x = normal.x / up - slope.x, y = normal.y / up - slope.y;
+  const double scale = 1.0 / std::sqrt(x * x + y * y + 1.0);
+  return {scale * x, scale * y, scale};
+}
+
 }  // namespace onesea::sea

@@ -40,6 +40,9 @@ struct InteractionSample {
 /// get zeros. The same bits on every machine. Cost of a height: 20 ns for a field.
 InteractionSample SampleInteraction(const InteractionSnapshot& snapshot, Vec2d place);
 
+/// The upward unit normal of a surface when this slope is added to its own.
+Vec3d Tilted(Vec3d normal, Vec2d slope);
+
 /// Heights alone, to the same bits: what hulls ask for each tick. Pre: equal sizes.
 void InteractionHeights(const InteractionSnapshot& snapshot, std::span<const Vec2d> places,
                         std::span<double> height_m);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "absl/strings/str_cat.h"
 #include "common/base/check.h"
@@ -107,12 +106,10 @@ std::optional<sea::InteractionMoment> MomentOf(SimTime time, int tick_rate_hz, T
 
 // The layers' slopes add as their heights do.
 void Tilt(Vec2d slope, float* normal) {
-  const double up = std::max(static_cast<double>(normal[2]), 1e-3);
-  const double x = normal[0] / up - slope.x, y = normal[1] / up - slope.y;
-  const double scale = 1.0 / std::sqrt(x * x + y * y + 1.0);
-  normal[0] = static_cast<float>(scale * x);
-  normal[1] = static_cast<float>(scale * y);
-  normal[2] = static_cast<float>(scale);
+  const Vec3d tilted = sea::Tilted({normal[0], normal[1], normal[2]}, slope);
+  normal[0] = static_cast<float>(tilted.x);
+  normal[1] = static_cast<float>(tilted.y);
+  normal[2] = static_cast<float>(tilted.z);
 }
 
 void AddInteraction(const sea::InteractionMoment& interaction, const QueryRequest& request,

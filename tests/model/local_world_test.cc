@@ -73,6 +73,10 @@ class FakeWorld {
   wire::WorldEncoder encoder_{1.0 / kTickRateHz};
 };
 
+double HeightAt(const WorldView& view, Vec2d place, SimTime time) {
+  return WorldView::SampleAt(view.MomentAt(time), place).height_m;
+}
+
 TEST(LocalWorld, FollowsFramesFromAKeyframeOn) {
   FakeWorld server;
   LocalWorld world;
@@ -84,8 +88,7 @@ TEST(LocalWorld, FollowsFramesFromAKeyframeOn) {
     const auto view = world.view();
     const double t = server.time().Seconds();
     for (const Vec2d place : {Vec2d{0.0, 1.0}, Vec2d{3.26, 7.31}, Vec2d{-9.9, 20.0}}) {
-      EXPECT_NEAR(view->SampleAt(place, server.time()).height_m, FakeWorld::Height(place, t),
-                  1.6e-3);
+      EXPECT_NEAR(HeightAt(*view, place, server.time()), FakeWorld::Height(place, t), 1.6e-3);
     }
     const wire::BodyTable::Body* boat = view->FindBody(5);
     ASSERT_NE(boat, nullptr);
@@ -106,16 +109,64 @@ TEST(LocalWorld, HeightsAreSmoothBetweenFramesAndZeroOutside) {
   const SimTime second = server.time();
   const auto view = world.view();
   const Vec2d place{4.0, 4.0};
-  const double a = view->SampleAt(place, first).height_m,
-               b = view->SampleAt(place, second).height_m;
+  const double a = HeightAt(*view, place, first), b = HeightAt(*view, place, second);
   EXPECT_GT(b, a);
   const SimTime middle{(first.flicks + second.flicks) / 2};
-  EXPECT_NEAR(view->SampleAt(place, middle).height_m, 0.5 * (a + b), 1e-9);
-  EXPECT_EQ(view->SampleAt(place, SimTime::FromSeconds(100.0)).height_m, b);
-  EXPECT_EQ(view->SampleAt(place, SimTime::FromSeconds(-100.0)).height_m, a);
-  EXPECT_EQ(view->SampleAt({-18.0, 4.0}, second).height_m, 0.0);
-  EXPECT_EQ(view->SampleAt({1e300, -1e300}, second).height_m, 0.0);
-  EXPECT_GT(view->SampleAt({20.0, 10.0}, second).foam, 0.0);
+  EXPECT_NEAR(HeightAt(*view, place, middle), 0.5 * (a + b), 1e-9);
+  EXPECT_EQ(HeightAt(*view, {-18.0, 4.0}, second), 0.0);
+  EXPECT_EQ(HeightAt(*view, {1e300, -1e300}, second), 0.0);
+  EXPECT_GT(WorldView::SampleAt(view->MomentAt(second), {20.0, 10.0}).foam, 0.0);
+}
+
+// After the last update the layer stands, then fades; before the first nothing is known.
+TEST(LocalWorld, HeightsFadeWhenNoNewsCome) {
+  FakeWorld server;
+  LocalWorld world;
+  EXPECT_FALSE(world.view()->MomentAt({}));
+  server.Next();
+  ASSERT_TRUE(world.Apply(server.Keyframe(), kTickRateHz).ok());
+  const auto view = world.view();
+  const Vec2d place{4.0, 4.0};
+  const double height_m = HeightAt(*view, place, server.time());
+  const auto later = [&](double seconds) { return server.time() + SimTime::FromSeconds(seconds); };
+  ASSERT_GT(height_m, 0.01);
+  EXPECT_EQ(HeightAt(*view, place, later(0.99 * WorldView::kStandsS)), height_m);
+  EXPECT_NEAR(HeightAt(*view, place, later(1.75 * WorldView::kStandsS)), 0.25 * height_m, 1e-9);
+  EXPECT_TRUE(view->MomentAt(later(1.99 * WorldView::kStandsS)));
+  EXPECT_FALSE(view->MomentAt(later(2.0 * WorldView::kStandsS)));
+  EXPECT_FALSE(view->MomentAt(later(-0.001)));
+  EXPECT_EQ(HeightAt(*view, place, later(-0.001)), 0.0);
+}
+
+// Heights rise by 0.1 m/s: whoever keeps a while knows each moment of it.
+TEST(LocalWorld, KeepsThePastThatItIsToldToKeep) {
+  FakeWorld server;
+  LocalWorld forgetful, keeper(SimTime::FromSeconds(0.5));
+  server.Next();
+  const wire::Frame start = server.Keyframe();
+  ASSERT_TRUE(forgetful.Apply(start, kTickRateHz).ok());
+  ASSERT_TRUE(keeper.Apply(start, kTickRateHz).ok());
+  for (int n = 0; n < 30; ++n) {
+    const wire::Frame frame = server.Next();
+    ASSERT_TRUE(forgetful.Apply(frame, kTickRateHz).ok());
+    ASSERT_TRUE(keeper.Apply(frame, kTickRateHz).ok());
+  }
+  const Vec2d place{3.0, 7.0};
+  const auto earlier = [&](double seconds) {
+    return server.time() - SimTime::FromSeconds(seconds);
+  };
+  for (const double age_s : {0.0, 0.02, 0.25, 0.5}) {
+    EXPECT_NEAR(HeightAt(*keeper.view(), place, earlier(age_s)),
+                FakeWorld::Height(place, earlier(age_s).Seconds()), 1e-3 * 25.0 / 16.0)
+        << age_s;
+  }
+  EXPECT_FALSE(keeper.view()->MomentAt(earlier(0.6)));
+  EXPECT_TRUE(forgetful.view()->MomentAt(earlier(0.02)));
+  EXPECT_FALSE(forgetful.view()->MomentAt(earlier(0.04)));
+  // One region in steps of a millimetre.
+  EXPECT_EQ(keeper.view()->MomentAt(server.time()).height_error_m, 1e-3 * 25.0 / 16.0);
+  ASSERT_TRUE(keeper.Apply(server.Keyframe(), kTickRateHz).ok());
+  EXPECT_FALSE(keeper.view()->MomentAt(earlier(0.01)));
 }
 
 TEST(LocalWorld, AViewStaysAsItWas) {
@@ -124,10 +175,10 @@ TEST(LocalWorld, AViewStaysAsItWas) {
   server.Next();
   ASSERT_TRUE(world.Apply(server.Keyframe(), kTickRateHz).ok());
   const auto view = world.view();
-  const double before = view->SampleAt({1.0, 1.0}, view->time()).height_m;
+  const double before = HeightAt(*view, {1.0, 1.0}, view->time());
   for (int n = 0; n < 5; ++n) ASSERT_TRUE(world.Apply(server.Next(), kTickRateHz).ok());
-  EXPECT_EQ(view->SampleAt({1.0, 1.0}, view->time()).height_m, before);
-  EXPECT_GT(world.view()->SampleAt({1.0, 1.0}, server.time()).height_m, before);
+  EXPECT_EQ(HeightAt(*view, {1.0, 1.0}, view->time()), before);
+  EXPECT_GT(HeightAt(*world.view(), {1.0, 1.0}, server.time()), before);
 }
 
 // Frames were lost: the stream's next frame is a keyframe, and then two worlds are one again.
