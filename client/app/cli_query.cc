@@ -11,6 +11,7 @@
 #include "client/app/cli_server.h"
 #include "client/app/json_writer.h"
 #include "common/base/check.h"
+#include "common/base/clock.h"
 #include "common/base/limits.h"
 #include "common/wire/query.h"
 #include "onesea/onesea.h"
@@ -45,10 +46,23 @@ absl::StatusOr<wire::QueryRequest> ReadRequest(const Arguments& arguments) {
   return request;
 }
 
+// The server's answer may be about a moment that news here have yet to come of. A session that
+// streams slowly, or whose time is far away, isn't waited for.
+void AwaitNews(const Sea& sea, double time_s) {
+  constexpr std::int64_t kPatienceNs = 200'000'000;
+  if (time_s > sea.Now() || sea.session().news_time_s == 0.0) return;
+  const Clock& clock = SystemClock();
+  const std::int64_t end_ns = clock.MonotonicNs() + kPatienceNs;
+  while (sea.session().news_time_s < time_s && clock.MonotonicNs() < end_ns) {
+    clock.SleepUntil(clock.MonotonicNs() + 2'000'000);
+  }
+}
+
 // The same question to the sea of this process, as an answer of the same form.
 absl::StatusOr<wire::QueryAnswer> AskLocally(const Sea& sea, const wire::QueryRequest& request,
                                              const wire::QueryAnswer& server) {
   const double time_s = server.time_s;
+  AwaitNews(sea, time_s);
   std::vector<Place> places;
   for (const Vec2d point : request.points_m) places.push_back({point.x, point.y});
   std::vector<Water> water(places.size());
@@ -56,7 +70,7 @@ absl::StatusOr<wire::QueryAnswer> AskLocally(const Sea& sea, const wire::QueryRe
   wire::QueryAnswer answer;
   answer.time_s = time_s;
   answer.height_error_bound_m = sea.HeightErrorBound(time_s);
-  answer.layers = server.layers & ~sea::kLayerInteraction;
+  answer.layers = water.front().layers;  // the same for every place
   for (std::size_t n = 0; n < water.size(); ++n) {
     if (water[n].dry) answer.dry_indices.push_back(static_cast<std::int32_t>(n));
     answer.height_m.push_back(static_cast<float>(water[n].height_m));
@@ -192,9 +206,12 @@ absl::Status RunQuery(const CliContext& context, const Arguments& arguments) {
   }
   ONESEA_ASSIGN_OR_RETURN(const ChosenSession chosen, ChooseSession(context));
   reply.session = reply.request.session = chosen.info.name;
-  ONESEA_ASSIGN_OR_RETURN(reply.shown, chosen.server->QueryPoints(reply.request));
+  std::unique_ptr<Sea> sea;  // before the question: of wakes it knows no earlier moment
   if (arguments.Has("local")) {
-    ONESEA_ASSIGN_OR_RETURN(const auto sea, JoinSession(context, chosen.info.name));
+    ONESEA_ASSIGN_OR_RETURN(sea, JoinSession(context, chosen.info.name, true));
+  }
+  ONESEA_ASSIGN_OR_RETURN(reply.shown, chosen.server->QueryPoints(reply.request));
+  if (sea != nullptr) {
     reply.server = std::move(reply.shown);
     ONESEA_ASSIGN_OR_RETURN(reply.shown, AskLocally(*sea, reply.request, *reply.server));
   }
@@ -209,23 +226,24 @@ absl::Status RunQuery(const CliContext& context, const Arguments& arguments) {
 }  // namespace
 
 CliCommand QueryCommand() {
-  return {.name = "query",
-          .operands = "",
-          .summary = "heights at places, now or at any time",
-          .details =
-              "Metres east and north of the origin; sea time in seconds since tick 0. The server\n"
-              "answers; with --local this program joins, computes the waves itself and shows the\n"
-              "difference.",
-          .options = {{"at", "X,Y", "a place, metres east and north; may be given many times"},
-                      {"time", "T", "sea time in seconds, past or future; default now"},
-                      {"depth", "D", "also velocity and pressure D metres below mean water level"},
-                      {"detail", "WHAT", "height (default), normal, or velocity (with the normal)"},
-                      {"local", "", "compute here and compare with the server"},
-                      {"remote", "", "let the server compute; the default"}},
-          .examples = {"onesea query --at 0,0", "onesea query --at 0,0 --at -25,100 --time 3600",
-                       "onesea query --at 12.5,-7 --depth 5 --detail velocity --local",
-                       "onesea query --at 0,0 --json"},
-          .run = RunQuery};
+  return {
+      .name = "query",
+      .operands = "",
+      .summary = "heights at places, now or at any time",
+      .details =
+          "Metres east and north of the origin; sea time in seconds since tick 0. The server\n"
+          "answers; with --local this program joins, computes the waves itself, adds the wakes\n"
+          "that are streamed to it and shows the difference.",
+      .options = {{"at", "X,Y", "a place, metres east and north; may be given many times"},
+                  {"time", "T", "sea time in seconds, past or future; default now"},
+                  {"depth", "D", "also velocity and pressure D metres below mean water level"},
+                  {"detail", "WHAT", "height (default), normal, or velocity (with the normal)"},
+                  {"local", "", "compute here and compare with the server"},
+                  {"remote", "", "let the server compute; the default"}},
+      .examples = {"onesea query --at 0,0", "onesea query --at 0,0 --at -25,100 --time 3600",
+                   "onesea query --at 12.5,-7 --depth 5 --detail velocity --local",
+                   "onesea query --at 0,0 --json"},
+      .run = RunQuery};
 }
 
 }  // namespace onesea::app

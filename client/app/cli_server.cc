@@ -42,8 +42,9 @@ absl::StatusOr<ChosenSession> ChooseSession(const CliContext& context) {
 }
 
 absl::StatusOr<std::unique_ptr<Sea>> JoinSession(const CliContext& context,
-                                                 const std::string& session) {
+                                                 const std::string& session, bool world) {
   JoinOptions options;
+  options.world = world;
   options.session = session;
   options.client_name = "onesea";
   return Join(context.server, options);

@@ -22,9 +22,9 @@ struct ChosenSession {
 /// are; Unavailable.
 absl::StatusOr<ChosenSession> ChooseSession(const CliContext& context);
 
-/// Joins as a game would.
+/// Joins as a game would; `world`: with wakes and bodies.
 absl::StatusOr<std::unique_ptr<Sea>> JoinSession(const CliContext& context,
-                                                 const std::string& session);
+                                                 const std::string& session, bool world);
 
 /// Errors of ParseNumber() and its kin, marked as the command line's own.
 template <typename T>

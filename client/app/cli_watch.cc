@@ -77,7 +77,7 @@ absl::Status RunWatch(const CliContext& context, const Arguments& arguments) {
     ONESEA_ASSIGN_OR_RETURN(seconds, InUsage(ParseNumber("--seconds", *text, 1.0, kWatchMaxS)));
   }
   ONESEA_ASSIGN_OR_RETURN(const ChosenSession chosen, ChooseSession(context));
-  ONESEA_ASSIGN_OR_RETURN(const auto sea, JoinSession(context, chosen.info.name));
+  ONESEA_ASSIGN_OR_RETURN(const auto sea, JoinSession(context, chosen.info.name, false));
   std::signal(SIGINT, [](int) { interrupted = true; });
   const Clock& clock = SystemClock();
   const std::int64_t start_ns = clock.MonotonicNs();
@@ -109,8 +109,10 @@ CliCommand WatchCommand() {
       .operands = "",
       .summary = "follows a session: tick, clock error, drift, bytes a second",
       .details =
-          "Joins as a game would, computes the sea here and compares it each second with heights\n"
-          "that the server sent. Ends with ^C. A lost connection is found again by itself.",
+          "Joins as a game would that needs the waves alone, computes them here and compares them\n"
+          "each second with heights that the server sent. Ends with ^C. A lost connection is "
+          "found\n"
+          "again by itself.",
       .options = {{"seconds", "N", "end after N seconds, at least 1"}},
       .examples = {"onesea watch --seconds 3", "onesea watch --seconds 2 --json"},
       .run = RunWatch};

@@ -5,11 +5,8 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "absl/strings/str_join.h"
-#include "absl/synchronization/mutex.h"
-#include "client/model/local_sea.h"
+#include "client/embed/joined_session.h"
 #include "client/net/remote_server.h"
-#include "client/net/session_client.h"
-#include "client/net/terrain_fetcher.h"
 #include "common/base/check.h"
 #include "common/base/clock.h"
 #include "common/ingest/terrain_file.h"
@@ -55,43 +52,22 @@ class FileSource : public SeaSource {
   std::int64_t start_ns_;
 };
 
-class ServerSource : public SeaSource, private SessionListener {
+class ServerSource : public SeaSource {
  public:
   ServerSource(std::string address, const std::string& session)
       : address_(std::move(address)),
         session_(session),
         sender_(session, CommandsTo(ConnectTo(address_))),
         meshes_([server = std::make_shared<RemoteServer>(ConnectTo(address_)),
-                 session](std::uint64_t hash) { return server->GetMesh(session, hash); }) {
-    SessionClientOptions options;
-    options.session = session;
-    options.every_frame = true;  // bodies and wakes move in every one
-    options.client_name = "onesea-view";
-    terrain_ = std::make_unique<TerrainFetcher>(
-        ConnectTo(address_), session_,
-        TerrainFetcher::Events{.on_terrain =
-                                   [this](std::shared_ptr<const sea::Terrain> terrain) {
-                                     sea()->SetTerrain(std::move(terrain));
-                                   },
-                               .on_failed =
-                                   [this](const absl::Status& status) {
-                                     absl::MutexLock lock(&mutex_);
-                                     status_ = status;
-                                   }});
-    client_ = std::make_unique<SessionClient>(ConnectTo(address_), options,
-                                              static_cast<SessionListener&>(*this));
-  }
-  ~ServerSource() override {
-    client_->Stop();
-    terrain_->Stop();
-  }
+                 session](std::uint64_t hash) { return server->GetMesh(session, hash); }),
+        joined_({.address = address_, .session = session, .client_name = "onesea-view"}) {}
 
   // OK once a sea is there and its time is known.
   absl::Status WaitForSea(std::int64_t timeout_ns) {
     const std::int64_t end_ns = SystemClock().MonotonicNs() + timeout_ns;
     while (SystemClock().MonotonicNs() < end_ns) {
       ONESEA_RETURN_IF_ERROR(status());
-      if (components() != nullptr && client_->Now().valid) return absl::OkStatus();
+      if (components() != nullptr && joined_.Now().valid) return absl::OkStatus();
       SystemClock().SleepUntil(SystemClock().MonotonicNs() + 2'000'000);
     }
     return absl::DeadlineExceededError(
@@ -99,99 +75,54 @@ class ServerSource : public SeaSource, private SessionListener {
   }
 
   std::shared_ptr<const sea::Components> components() const override {
-    const LocalSea* const sea = this->sea();
+    const LocalSea* const sea = joined_.sea();
     return sea == nullptr ? nullptr : sea->components();
   }
-  double WaterLevelAt(SimTime time) const override { return sea()->WaterLevelAt(time); }
-  std::shared_ptr<const WorldView> world() const override { return world_.view(); }
+  double WaterLevelAt(SimTime time) const override { return joined_.sea()->WaterLevelAt(time); }
+  std::shared_ptr<const WorldView> world() const override { return joined_.world().view(); }
   CommandSender* commands() override { return &sender_; }
   MeshFetcher* meshes() override { return &meshes_; }
-  std::vector<wire::Spray> TakeSpray() override { return world_.TakeSpray(); }
-  SimTime Now() override { return client_->Now().render; }
+  std::vector<wire::Spray> TakeSpray() override { return joined_.world().TakeSpray(); }
+  SimTime Now() override { return joined_.Now().render; }
   SourceReport Report() override {
-    const SeaTime now = client_->Now();
+    const SeaTime now = joined_.Now();
     SourceReport report;
     report.where = absl::StrCat(address_, ", session ", session_);
     report.speed = now.speed;
     report.clock_error_s = now.error_bound_s;
-    absl::MutexLock lock(&mutex_);
-    report.link = link_;
-    if (sea_ == nullptr) return report;
+    report.link = LinkText(joined_.link());
+    const LocalSea* const sea = joined_.sea();
+    if (sea == nullptr) return report;
     // Until then the open sea is drawn.
-    if (sea_->missing_terrain() != 0) absl::StrAppend(&report.link, ", terrain is coming");
-    report.tick = TickAtOrBefore(now.render, sea_->components()->recipe.tick_rate_hz);
-    const Drift drift = sea_->drift();
+    if (sea->missing_terrain() != 0) absl::StrAppend(&report.link, ", terrain is coming");
+    report.tick = TickAtOrBefore(now.render, sea->components()->recipe.tick_rate_hz);
+    const Drift drift = sea->drift();
     if (drift.comparisons > 0) report.drift_m = drift.last_m;
     return report;
   }
-  absl::Status status() const override {
-    absl::MutexLock lock(&mutex_);
-    return status_;
-  }
+  absl::Status status() const override { return joined_.status(); }
 
  private:
-  // Null before the first welcome; then the same for ever.
-  LocalSea* sea() const {
-    absl::MutexLock lock(&mutex_);
-    return sea_.get();
-  }
-  void OnFrame(const wire::Frame& frame) override {
-    if (frame.welcome.has_value()) Welcome(*frame.welcome);
-    LocalSea* const sea = this->sea();
-    if (sea == nullptr) return;
-    // A frame that doesn't fit is made good by the next keyframe.
-    world_.Apply(frame, sea->components()->recipe.tick_rate_hz).IgnoreError();
-    if (!frame.probes.has_value()) return;
-    const absl::StatusOr<double> drift = sea->CompareProbes(*frame.probes);
-    if (drift.ok()) client_->ReportDrift(*drift);
-  }
-  // Building takes long: pictures go on meanwhile.
-  void Welcome(const wire::Welcome& welcome) {
-    std::unique_ptr<LocalSea> made;
-    const absl::Status status = [&]() -> absl::Status {
-      if (LocalSea* const followed = sea()) return followed->Follow(welcome);
-      ONESEA_ASSIGN_OR_RETURN(made, LocalSea::Make(welcome));
-      return absl::OkStatus();
-    }();
-    {
-      absl::MutexLock lock(&mutex_);
-      status_ = status;
-      if (made != nullptr) sea_ = std::move(made);
-    }
-    if (status.ok()) terrain_->Want(sea()->missing_terrain());
-  }
-  void OnLink(const LinkEvent& event) override {
-    absl::MutexLock lock(&mutex_);
-    switch (event.state) {
+  static std::string LinkText(const LinkEvent& link) {
+    switch (link.state) {
       case LinkState::kConnecting:
-        link_ = "connecting";
-        break;
+        return "connecting";
       case LinkState::kLive:
-        link_ = "live";
-        break;
+        return "live";
       case LinkState::kWaiting:
-        link_ = absl::StrCat("waiting: ", event.status.message());
-        break;
+        return absl::StrCat("waiting: ", link.status.message());
       case LinkState::kStopped:
-        link_ = "stopped";
-        break;
+        return "stopped";
       case LinkState::kFailed:
-        link_ = "failed";
-        status_ = event.status;
-        break;
+        return "failed";
     }
+    return "";
   }
 
   const std::string address_, session_;
-  mutable absl::Mutex mutex_;
-  std::unique_ptr<LocalSea> sea_ ABSL_GUARDED_BY(mutex_);
-  LocalWorld world_;
-  std::string link_ ABSL_GUARDED_BY(mutex_) = "connecting";
-  absl::Status status_ ABSL_GUARDED_BY(mutex_);
   CommandSender sender_;
-  std::unique_ptr<TerrainFetcher> terrain_;
   MeshFetcher meshes_;
-  std::unique_ptr<SessionClient> client_;  // last: stops before what it calls is gone
+  JoinedSession joined_;
 };
 
 absl::StatusOr<std::string> OnlySession(const std::string& address) {

@@ -5,23 +5,20 @@
 #include <limits>
 #include <utility>
 
-#include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "absl/time/clock.h"
-#include "client/model/other_sea.h"
 #include "common/base/check.h"
 #include "common/base/limits.h"
 
 namespace onesea::client {
 namespace {
 
+static_assert(kLayerWaves == sea::kLayerSpectral && kLayerWakes == sea::kLayerInteraction &&
+              kLayerTerrain == sea::kLayerTerrain && kLayerWaterLevel == sea::kLayerWaterLevel);
+
+// Of wakes, as onesea.h promises: a game's frame or two, and those who are late.
+constexpr SimTime kPast{kFlicksPerSecond};
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
-bool IsPlace(double x_m, double y_m) {
-  return std::abs(x_m) <= kQueryCoordinateMaxM && std::abs(y_m) <= kQueryCoordinateMaxM;
-}
-
-bool IsTime(double time_s) { return std::abs(time_s) <= kQueryTimeMaxS; }
 
 absl::Status CheckRequest(std::span<const Place> places, double time_s, std::size_t out_size) {
   if (out_size != places.size()) {
@@ -48,41 +45,35 @@ std::vector<Vec2d> Points(std::span<const Place> places) {
   return points;
 }
 
+// Waves and wakes together; heights are added in single precision, as the server does.
+Water WaterOf(const sea::SurfaceSample& waves, const sea::InteractionSample& wakes, Detail detail) {
+  Water water{.height_m = waves.height_m + static_cast<float>(wakes.height_m),
+              .normal = {waves.normal_x, waves.normal_y, waves.normal_z},
+              .velocity_m_per_s = {waves.velocity_x_m_per_s, waves.velocity_y_m_per_s,
+                                   waves.velocity_z_m_per_s},
+              .wakes_m = wakes.height_m,
+              .folded = waves.folded};
+  if (detail == Detail::kHeight || wakes.slope == Vec2d{}) return water;
+  const Vec3d tilted = sea::Tilted({waves.normal_x, waves.normal_y, waves.normal_z}, wakes.slope);
+  water.normal[0] = tilted.x;
+  water.normal[1] = tilted.y;
+  water.normal[2] = tilted.z;
+  return water;
+}
+
 }  // namespace
 
 JoinedSea::JoinedSea(const std::string& address, const std::string& session,
                      const JoinOptions& options)
-    : on_event_(options.on_event) {
-  follower_ = std::make_unique<Follower>(
-      Follower::Events{.on_new_sea = [this] { OnNewSea(); },
-                       .on_compared =
-                           [this](const Drift& drift) {
-                             if (SessionClient* const sink = drift_sink_)
-                               sink->ReportDrift(drift.last_m);
-                           },
-                       .on_refused = [this](const absl::Status& status) { Fail(status); }});
-  terrain_ = std::make_unique<TerrainFetcher>(
-      ConnectTo(address), session,
-      TerrainFetcher::Events{.on_terrain =
-                                 [this](std::shared_ptr<const sea::Terrain> terrain) {
-                                   follower_->sea()->SetTerrain(std::move(terrain));
-                                   Tell("the terrain has come");
-                                 },
-                             .on_failed = [this](const absl::Status& status) { Fail(status); }});
-  SessionClientOptions link;
-  link.session = session;
-  if (!options.client_name.empty()) link.client_name = options.client_name;
-  client_ = std::make_unique<SessionClient>(ConnectTo(address), link, *this);
-  drift_sink_ = client_.get();
-}
-
-// First no more frames and no more terrain for the follower, then no more work on them, which may
-// still report to the others; then those.
-JoinedSea::~JoinedSea() {
-  client_->Stop();
-  terrain_->Stop();
-  follower_.reset();
-}
+    : session_name_(session),
+      owner_(options.client_name.empty() ? "a game" : options.client_name),
+      session_({.address = address,
+                .session = session,
+                .client_name = options.client_name.empty() ? "onesea" : options.client_name,
+                .world = options.world,
+                .past = kPast,
+                .on_event = options.on_event}),
+      fleet_(session, CommandsTo(ConnectTo(address)), [this] { return session_.world().view(); }) {}
 
 absl::Status JoinedSea::WaitUntilReady(double timeout_s) {
   const absl::Time deadline = absl::Now() + absl::Seconds(timeout_s);
@@ -90,16 +81,12 @@ absl::Status JoinedSea::WaitUntilReady(double timeout_s) {
   // under its own lock.
   while (absl::Now() < deadline) {
     ONESEA_RETURN_IF_ERROR(status());
-    {
-      absl::MutexLock lock(&mutex_);
-      if (link_.state == LinkState::kWaiting || link_.state == LinkState::kFailed) {
-        return link_.status;
-      }
-    }
-    if (UsableSea() != nullptr && client_->Now().valid) return absl::OkStatus();
+    const LinkEvent link = session_.link();
+    if (link.state == LinkState::kWaiting || link.state == LinkState::kFailed) return link.status;
+    if (UsableSea() != nullptr && session_.Now().valid) return absl::OkStatus();
     absl::SleepFor(absl::Milliseconds(1));
   }
-  if (follower_->sea() != nullptr && follower_->sea()->missing_terrain() != 0) {
+  if (session_.sea() != nullptr && session_.sea()->missing_terrain() != 0) {
     return absl::UnavailableError(
         absl::StrFormat("the session's terrain did not come within %g s", timeout_s));
   }
@@ -107,50 +94,10 @@ absl::Status JoinedSea::WaitUntilReady(double timeout_s) {
       absl::StrFormat("the server did not complete joining within %g s", timeout_s));
 }
 
-void JoinedSea::OnFrame(const wire::Frame& frame) { follower_->Offer(frame); }
-
-void JoinedSea::OnNewSea() {
-  Tell("the sea is followed");
-  terrain_->Want(follower_->sea()->missing_terrain());
-}
-
-void JoinedSea::OnLink(const LinkEvent& event) {
-  {
-    absl::MutexLock lock(&mutex_);
-    link_ = event;
-    if (event.state == LinkState::kFailed && status_.ok()) status_ = event.status;
-  }
-  switch (event.state) {
-    case LinkState::kLive:
-      return Tell("connected");
-    case LinkState::kWaiting:
-      return Tell(absl::StrCat("connection lost, trying again: ", event.status.message()));
-    case LinkState::kFailed:
-      return Tell(absl::StrCat("can't follow the session: ", event.status.message()));
-    default:
-      return;
-  }
-}
-
-void JoinedSea::Tell(const std::string& line) const {
-  if (on_event_) on_event_(line);
-}
-
-void JoinedSea::Fail(const absl::Status& status) {
-  {
-    absl::MutexLock lock(&mutex_);
-    if (status_.ok()) status_ = status;
-  }
-  Tell(absl::StrCat("can't follow the session: ", status.message()));
-}
-
-absl::Status JoinedSea::status() const {
-  absl::MutexLock lock(&mutex_);
-  return status_;
-}
+absl::Status JoinedSea::status() const { return session_.status(); }
 
 LocalSea* JoinedSea::UsableSea() const {
-  LocalSea* const sea = status().ok() ? follower_->sea() : nullptr;
+  LocalSea* const sea = status().ok() ? session_.sea() : nullptr;
   return sea == nullptr || sea->missing_terrain() != 0 ? nullptr : sea;
 }
 
@@ -160,18 +107,27 @@ absl::Status JoinedSea::UsableStatus() const {
   return absl::UnavailableError("the session's terrain has not come yet");
 }
 
-double JoinedSea::Now() const { return client_->Now().render.Seconds(); }
+double JoinedSea::Now() const { return session_.Now().render.Seconds(); }
 
 double JoinedSea::HeightAt(double x_m, double y_m) const {
   const LocalSea* const sea = UsableSea();
   if (sea == nullptr || !IsPlace(x_m, y_m)) return kNan;
-  return sea->HeightNear({x_m, y_m}, client_->Now().render);
+  const SimTime now = session_.Now().render;
+  return sea->HeightNear({x_m, y_m}, now) + WakesAt({x_m, y_m}, now);
 }
 
 double JoinedSea::HeightAt(double x_m, double y_m, double time_s) const {
   const LocalSea* const sea = UsableSea();
   if (sea == nullptr || !IsPlace(x_m, y_m) || !IsTime(time_s)) return kNan;
-  return sea->HeightAt({x_m, y_m}, SimTime::FromSeconds(time_s));
+  const SimTime time = SimTime::FromSeconds(time_s);
+  // In single precision, as the server adds them.
+  return static_cast<float>(sea->HeightAt({x_m, y_m}, time)) +
+         static_cast<float>(WakesAt({x_m, y_m}, time));
+}
+
+double JoinedSea::WakesAt(Vec2d place, SimTime time) const {
+  const std::shared_ptr<const WorldView> world = session_.world().view();
+  return WorldView::SampleAt(world->MomentAt(time), place).height_m;
 }
 
 absl::Status JoinedSea::Sample(std::span<const Place> places, double time_s, Detail detail,
@@ -182,19 +138,19 @@ absl::Status JoinedSea::Sample(std::span<const Place> places, double time_s, Det
     return absl::InvalidArgumentError(absl::StrFormat(
         "detail is %d, it must be kHeight (1), kNormal (2) or kVelocity (3)", detail));
   }
-  const LocalSea& sea = *follower_->sea();
+  const LocalSea& sea = *session_.sea();
+  const SimTime time = SimTime::FromSeconds(time_s);
   const std::vector<Vec2d> points = Points(places);
   const std::shared_ptr<const sea::Terrain> terrain = sea.terrain();
+  const std::shared_ptr<const WorldView> world = session_.world().view();
+  const WorldView::Moment wakes = world->MomentAt(time);
   std::vector<sea::SurfaceSample> samples(places.size());
-  sea.Sample(points, SimTime::FromSeconds(time_s), static_cast<sea::QueryDetail>(detail), samples);
+  std::uint32_t layers = sea.Sample(points, time, static_cast<sea::QueryDetail>(detail), samples);
+  if (wakes) layers |= kLayerWakes;
   for (std::size_t n = 0; n < samples.size(); ++n) {
-    const sea::SurfaceSample& sample = samples[n];
-    out[n] = {.height_m = sample.height_m,
-              .normal = {sample.normal_x, sample.normal_y, sample.normal_z},
-              .velocity_m_per_s = {sample.velocity_x_m_per_s, sample.velocity_y_m_per_s,
-                                   sample.velocity_z_m_per_s},
-              .folded = sample.folded,
-              .dry = terrain != nullptr && terrain->IsDry(points[n], double{sample.height_m})};
+    out[n] = WaterOf(samples[n], WorldView::SampleAt(wakes, points[n]), detail);
+    out[n].layers = layers;
+    out[n].dry = terrain != nullptr && terrain->IsDry(points[n], out[n].height_m);
   }
   return absl::OkStatus();
 }
@@ -213,7 +169,7 @@ absl::Status JoinedSea::SampleAtDepth(std::span<const Place> places,
     return absl::InvalidArgumentError(absl::StrFormat("depth_m[%d] is %g, it must be in [0, %g]", n,
                                                       depth_m[n], kQueryDepthMaxM));
   }
-  const LocalSea& sea = *follower_->sea();
+  const LocalSea& sea = *session_.sea();
   const SimTime time = SimTime::FromSeconds(time_s);
   const std::vector<Vec2d> points = Points(places);
   std::vector<sea::SurfaceSample> surface(points.size());
@@ -221,9 +177,12 @@ absl::Status JoinedSea::SampleAtDepth(std::span<const Place> places,
   sea.Sample(points, time, sea::QueryDetail::kHeight, surface);
   sea.SampleAtDepth(points, depth_m, time, samples);
   const std::shared_ptr<const sea::Terrain> terrain = sea.terrain();
+  const std::shared_ptr<const WorldView> world = session_.world().view();
+  const WorldView::Moment wakes = world->MomentAt(time);
   for (std::size_t n = 0; n < points.size(); ++n) {
     out[n] = {};
-    const double height_m = double{surface[n].height_m};
+    const double height_m =
+        surface[n].height_m + static_cast<float>(WorldView::SampleAt(wakes, points[n]).height_m);
     out[n].dry =
         -depth_m[n] > height_m || (terrain != nullptr && terrain->IsDry(points[n], height_m));
     if (out[n].dry) continue;
@@ -237,13 +196,14 @@ absl::Status JoinedSea::SampleAtDepth(std::span<const Place> places,
 double JoinedSea::HeightErrorBound(double time_s) const {
   const LocalSea* const sea = UsableSea();
   if (sea == nullptr || !IsTime(time_s)) return kNan;
-  return sea->SnapshotAt(SimTime::FromSeconds(time_s), sea::QueryDetail::kHeight)
-      ->HeightErrorBound();
+  const SimTime time = SimTime::FromSeconds(time_s);
+  return sea->SnapshotAt(time, sea::QueryDetail::kHeight)->HeightErrorBound() +
+         session_.world().view()->MomentAt(time).height_error_m;
 }
 
 DriftReport JoinedSea::drift() const {
-  const SeaTime now = client_->Now();
-  const Drift drift = follower_->sea()->drift();
+  const SeaTime now = session_.Now();
+  const Drift drift = session_.sea()->drift();
   return {.comparisons = drift.comparisons,
           .last_m = drift.last_m,
           .worst_m = drift.worst_m,
@@ -251,19 +211,20 @@ DriftReport JoinedSea::drift() const {
 }
 
 SessionReport JoinedSea::session() const {
-  const LocalSea& sea = *follower_->sea();
+  const LocalSea& sea = *session_.sea();
   const SessionInfo info = sea.session();
-  const LinkStats link = client_->stats();
+  const LinkStats link = session_.stats();
   const auto components = sea.components();
   SessionReport report;
   report.name = info.name;
   report.sea_name = components->recipe.timeline.back().sea.name;
   report.tick_rate_hz = components->recipe.tick_rate_hz;
-  report.hs_m = sea.SignificantWaveHeightAt(client_->Now().render);
+  report.hs_m = sea.SignificantWaveHeightAt(session_.Now().render);
   report.component_hash = components->hash;
   report.connected = link.state == LinkState::kLive;
   report.connection_count = link.connections;
   report.bytes_received = link.frame_bytes;
+  report.news_time_s = session_.world().view()->time().Seconds();
   for (const Vec2d probe : info.probes_m) report.probes.push_back({probe.x, probe.y});
   return report;
 }

@@ -1,27 +1,32 @@
 #pragma once
 
-#include <atomic>
-#include <functional>
+#include <cmath>
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
-#include "absl/base/thread_annotations.h"
 #include "absl/status/status.h"
-#include "absl/synchronization/mutex.h"
-#include "client/embed/follower.h"
-#include "client/net/session_client.h"
-#include "client/net/terrain_fetcher.h"
+#include "client/embed/fleet.h"
+#include "client/embed/joined_session.h"
+#include "common/base/limits.h"
 #include "onesea/onesea.h"
 
 namespace onesea::client {
 
-/// The Sea that Join() hands out: a SessionClient for frames and time, a Follower for the waves, a
-/// TerrainFetcher for what lies below them.
-class JoinedSea final : public Sea, public SessionListener {
+/// Both refuse NaN.
+inline bool IsPlace(double x_m, double y_m) {
+  return std::abs(x_m) <= kQueryCoordinateMaxM && std::abs(y_m) <= kQueryCoordinateMaxM;
+}
+inline bool IsTime(double time_s) { return std::abs(time_s) <= kQueryTimeMaxS; }
+
+/// The Sea that Join() hands out: a session followed, checked questions about it, and the bodies
+/// that this process commands.
+class JoinedSea final : public Sea {
  public:
   JoinedSea(const std::string& address, const std::string& session, const JoinOptions& options);
-  ~JoinedSea() override;
 
   /// Waits for the first correct height.
   absl::Status WaitUntilReady(double timeout_s);
@@ -34,28 +39,26 @@ class JoinedSea final : public Sea, public SessionListener {
   absl::Status SampleAtDepth(std::span<const Place> places, std::span<const double> depth_m,
                              double time_s, std::span<Underwater> out) const override;
   double HeightErrorBound(double time_s) const override;
+  std::vector<Body> Bodies() const override;
+  std::vector<Body> Bodies(double time_s) const override;
+  std::optional<Body> FindBody(std::uint32_t id) const override;
+  absl::StatusOr<std::unique_ptr<OwnBody>> Spawn(const SpawnOptions& options) override;
+  absl::StatusOr<std::unique_ptr<OwnBody>> Take(std::uint32_t id) override;
   absl::Status status() const override;
   DriftReport drift() const override;
   SessionReport session() const override;
 
  private:
-  void OnFrame(const wire::Frame& frame) override;
-  void OnLink(const LinkEvent& event) override;
-  void OnNewSea();
-  void Tell(const std::string& line) const;
-  void Fail(const absl::Status& status);
   // The sea, or null once this process can't show it any more, or while a terrain is missing.
   LocalSea* UsableSea() const;
   absl::Status UsableStatus() const;
+  double WakesAt(Vec2d place, SimTime time) const;
+  std::vector<Body> BodiesAt(SimTime time) const;
+  absl::Status Validate(const wire::WorldCommand& command) const;
 
-  const std::function<void(const std::string&)> on_event_;
-  mutable absl::Mutex mutex_;
-  absl::Status status_ ABSL_GUARDED_BY(mutex_);
-  LinkEvent link_ ABSL_GUARDED_BY(mutex_);
-  std::atomic<SessionClient*> drift_sink_{nullptr};  // client_, once it is constructed
-  std::unique_ptr<Follower> follower_;
-  std::unique_ptr<TerrainFetcher> terrain_;
-  std::unique_ptr<SessionClient> client_;
+  const std::string session_name_, owner_;
+  JoinedSession session_;
+  Fleet fleet_;  // last: it asks the session
 };
 
 }  // namespace onesea::client
