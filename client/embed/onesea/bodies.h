@@ -7,8 +7,8 @@
 
 /// What floats on a session's sea: see all of it, command your own.
 ///
-/// World frame as in onesea.h. Body frame: x forward, y to port, z up, from the hull's origin, which
-/// isn't the centre of mass.
+/// World frame as in onesea.h. Body frame: x forward, y to port, z up, from the hull's origin,
+/// which isn't the centre of mass.
 namespace onesea {
 
 struct Body {

@@ -119,8 +119,8 @@ class Sea {
 
   /// The same at sea time `time_s`, past or future, within 3.2e9 s of tick 0, waves not
   /// interpolated in time. A first call for a time costs one synthesis; the last few times are
-  /// kept. Wakes are known of the last second: linear in time between news; after the last news they
-  /// stand still for 1.5 s of sea time and fade within as much again. Other moments have none.
+  /// kept. Wakes are known of the last second: linear in time between news; after the last news
+  /// they stand still for 1.5 s of sea time and fade within as much again. Other moments have none.
   virtual double HeightAt(double x_m, double y_m, double time_s) const = 0;
 
   /// out[n] answers places[n] at `time_s`. InvalidArgument naming the place or time that is out of
@@ -134,10 +134,11 @@ class Sea {
   virtual absl::Status SampleAtDepth(std::span<const Place> places, std::span<const double> depth_m,
                                      double time_s, std::span<Underwater> out) const = 0;
 
-  /// Bound [m] of the error of heights at `time_s`, where the waves do not fold: of the waves against
-  /// their exact sum (the server's answer has the same error), and of wakes, if they are in, against
-  /// the server's at a moment that news tell of. Between news 1/30 s apart wakes of period T are off
-  /// by (0.07 s / T)² more of themselves; from the last news to now by what they rise meanwhile.
+  /// Bound [m] of the error of heights at `time_s`, where the waves do not fold: of the waves
+  /// against their exact sum (the server's answer has the same error), and of wakes, if they are
+  /// in, against the server's at a moment that news tell of. Between news 1/30 s apart wakes of
+  /// period T are off by (0.07 s / T)² more of themselves; from the last news to now by what they
+  /// rise meanwhile.
   virtual double HeightErrorBound(double time_s) const = 0;
 
   /// All bodies now, ascending by id; between news on smooth curves, after them by their velocities
@@ -148,11 +149,12 @@ class Sea {
   /// None: no such body. Cheaper than all of them.
   virtual std::optional<Body> FindBody(std::uint32_t id) const = 0;
 
-  /// Asks the server for a new body, which this process then commands. Does not wait. InvalidArgument
-  /// for an option out of range; what the server thinks of it is in OwnBody::status().
+  /// Asks the server for a new body, which this process then commands. Does not wait.
+  /// InvalidArgument for an option out of range; what the server thinks of it is in
+  /// OwnBody::status().
   virtual absl::StatusOr<std::unique_ptr<OwnBody>> Spawn(const SpawnOptions& options) = 0;
-  /// Asks the server for the lease of a body that is there. Does not wait. InvalidArgument if `id` is
-  /// 0; PermissionDenied (in OwnBody::status()) while somebody else holds it.
+  /// Asks the server for the lease of a body that is there. Does not wait. InvalidArgument if `id`
+  /// is 0; PermissionDenied (in OwnBody::status()) while somebody else holds it.
   virtual absl::StatusOr<std::unique_ptr<OwnBody>> Take(std::uint32_t id) = 0;
 
   /// OK, or why this process can't show the session's sea any more: its components differ
