@@ -42,7 +42,7 @@ class AnswerStream : public grpc::ServerBidiReactor<Request, Response> {
       if (!ok) no_more_requests_ = true;
       over = GoOn();
     }
-    FinishIf(over);
+    if (over) this->Finish(grpc::Status::OK);
   }
 
   void OnWriteDone(bool ok) override {
@@ -57,7 +57,7 @@ class AnswerStream : public grpc::ServerBidiReactor<Request, Response> {
       }
       over = GoOn();
     }
-    FinishIf(over);
+    if (over) this->Finish(grpc::Status::OK);
   }
 
   void OnCancel() override {
@@ -68,7 +68,7 @@ class AnswerStream : public grpc::ServerBidiReactor<Request, Response> {
       while (answers_.size() > (writing_ ? 1 : 0)) answers_.pop_back();
       over = GoOn();
     }
-    FinishIf(over);
+    if (over) this->Finish(grpc::Status::OK);
   }
 
   void OnDone() override { delete this; }
@@ -87,12 +87,13 @@ class AnswerStream : public grpc::ServerBidiReactor<Request, Response> {
       if (!broken_) answers_.push_back(std::move(response));
       over = GoOn();
     }
-    FinishIf(over);
+    if (over) this->Finish(grpc::Status::OK);
   }
 
  private:
   // Starts what can be started. True: the call is over, and the caller is to Finish() it after
-  // giving the lock back, since the reactor may be deleted from then on.
+  // giving the lock back. False: another thread may, and delete the reactor; no member may be
+  // touched or called any more.
   [[nodiscard]] bool GoOn() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_) {
     if (finished_) return false;
     if (!writing_ && !answers_.empty()) {
@@ -106,9 +107,6 @@ class AnswerStream : public grpc::ServerBidiReactor<Request, Response> {
     const bool idle = !writing_ && !reading_ && owed_ == 0 && answers_.empty();
     finished_ = idle && (no_more_requests_ || broken_);
     return finished_;
-  }
-  void FinishIf(bool over) {
-    if (over) this->Finish(grpc::Status::OK);
   }
 
   Request request_;  // owned by gRPC while reading_
