@@ -30,5 +30,6 @@ CliCommand RegionCommand();
 CliCommand InstrumentsCommand();
 CliCommand RemoveCommand();
 CliCommand RopeCommand();
+CliCommand RopesCommand();
 
 }  // namespace onesea::app

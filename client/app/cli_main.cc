@@ -12,7 +12,7 @@ int main(int argc, char** argv) {
       WeatherCommand(),     HoldCommand(),     ResumeCommand(),  StepCommand(),     SpeedCommand(),
       HashCommand(),        SpectrumCommand(), SpawnCommand(),   PresetsCommand(),  BodiesCommand(),
       DriveCommand(),       ImpulseCommand(),  ExplodeCommand(), ObstacleCommand(), RegionCommand(),
-      InstrumentsCommand(), RopeCommand(),     RemoveCommand()};
+      InstrumentsCommand(), RopeCommand(),     RopesCommand(),   RemoveCommand()};
   // An error is one line; gRPC would add its own.
   setenv("GRPC_VERBOSITY", "NONE", /*overwrite=*/0);
   const char* server = std::getenv("ONESEA_SERVER");

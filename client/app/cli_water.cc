@@ -91,6 +91,8 @@ absl::Status RunRegion(const CliContext& context, const Arguments& arguments) {
   ONESEA_ASSIGN_OR_RETURN(
       region.cell_m, NumberOr(arguments, "cell", region.cell_m, kRegionCellMinM, kRegionCellMaxM));
   ONESEA_ASSIGN_OR_RETURN(region.damping_per_s, NumberOr(arguments, "damping", 0.0, 0.0, 10.0));
+  ONESEA_ASSIGN_OR_RETURN(region.rest_after_s,
+                          NumberOr(arguments, "rest", 0.0, 0.0, kRestAfterMaxS));
   return DoCommand(context, arguments, wire::AddRegion{region}, "region $0");
 }
 
@@ -139,6 +141,7 @@ CliCommand RegionCommand() {
                   {"solver", "NAME",
                    "iwave (default), wave-equation or shallow-water; these need a depth"},
                   {"damping", "D", "per second, [0, 10]; default 0"},
+                  {"rest", "S", "given back once its body was at rest for so long; default never"},
                   {"remove", "ID", "takes this region away"}},
       .examples = {"onesea region --at 200,0 --cells 128x64 --cell 1", "onesea region --follow 1",
                    "onesea region --remove 2"},

@@ -33,6 +33,7 @@ absl::Status RunSpawn(const CliContext& context, const Arguments& arguments) {
     wire::RegionSpec region;
     region.middle_m = place;
     region.follow_body_id = answer.id;
+    region.rest_after_s = wire::kRestAfterS;
     ONESEA_RETURN_IF_ERROR(
         chosen.server->Command(HeaderFor(chosen.info, arguments), wire::AddRegion{region})
             .status());
@@ -130,21 +131,23 @@ absl::Status RunRemove(const CliContext& context, const Arguments& arguments) {
 }  // namespace
 
 CliCommand SpawnCommand() {
-  return {.name = "spawn",
-          .operands = "PRESET",
-          .operand_count = 1,
-          .summary = "puts a ready-made body afloat: a boat, a buoy, a crate, ...",
-          .details =
-              "onesea presets lists the bodies that the server has.\n"
-              "A region of the interaction layer follows the body, so that it leaves a wake.\n"
-              "Anybody may drive it afterwards, unless --keep.",
-          .options = {{"at", "X,Y", "where, metres east and north"},
-                      {"heading", "DEG", "of its bow, clockwise from north; default 90"},
-                      {"name", "TEXT", "default the preset's"},
-                      {"no-wake", "", "no region follows it"},
-                      {"keep", "", "keep and print the lease: only who shows it may drive"}},
-          .examples = {"onesea spawn boat --at 0,0", "onesea spawn crate --at 12,3 --no-wake"},
-          .run = RunSpawn};
+  return {
+      .name = "spawn",
+      .operands = "PRESET",
+      .operand_count = 1,
+      .summary = "puts a ready-made body afloat: a boat, a buoy, a crate, ...",
+      .details =
+          "onesea presets lists the bodies that the server has.\n"
+          "A region of the interaction layer follows the body, so that it leaves a wake; it is\n"
+          "given back while the body has been at rest for more than a minute.\n"
+          "Anybody may drive it afterwards, unless --keep.",
+      .options = {{"at", "X,Y", "where, metres east and north"},
+                  {"heading", "DEG", "of its bow, clockwise from north; default 90"},
+                  {"name", "TEXT", "default the preset's"},
+                  {"no-wake", "", "no region follows it"},
+                  {"keep", "", "keep and print the lease: only who shows it may drive"}},
+      .examples = {"onesea spawn boat --at 0,0", "onesea spawn crate --at 12,3 --no-wake"},
+      .run = RunSpawn};
 }
 
 CliCommand PresetsCommand() {

@@ -135,6 +135,7 @@ void Skipper::Done(Kind kind, std::int64_t number, const CommandAnswer& answer,
              .launched_ns = moment.now_ns});
     wire::RegionSpec region;  // so that it leaves a wake
     region.follow_body_id = answer.id;
+    region.rest_after_s = wire::kRestAfterS;
     Send(Kind::kRegion, wire::AddRegion{region});
     return Say(absl::StrCat("boat ", answer.id, ": the arrow keys drive it"));
   }

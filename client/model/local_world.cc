@@ -135,6 +135,8 @@ absl::Status LocalWorld::ApplyWorld(const wire::WorldUpdate& update, bool keyfra
   AddLayer(std::move(layer), *next);
   if (update.water_level_m) next->water_level_m_ = *update.water_level_m;
   if (keyframe && !update.water_level_m) next->water_level_m_ = 0.0;
+  if (keyframe) next->ropes_ = std::make_shared<const std::vector<wire::TiedRope>>();
+  if (update.ropes != nullptr) next->ropes_ = update.ropes;
   AddSpray(update.spray);
   view_ = std::move(next);
   current_ = true;

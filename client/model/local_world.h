@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "absl/base/thread_annotations.h"
@@ -50,6 +51,8 @@ class WorldView {
   std::span<const wire::BodyTable::Body> bodies() const { return bodies_.bodies(); }
   const wire::BodyTable::Body* FindBody(std::uint32_t id) const { return bodies_.Find(id); }
   double water_level_m() const { return water_level_m_; }
+  /// Ids ascending. Ends may be on bodies that aren't there: see RopesAt().
+  std::span<const wire::TiedRope> ropes() const { return *ropes_; }
   SimTime time() const { return layers_.back().time; }  ///< of the last update
 
  private:
@@ -63,6 +66,7 @@ class WorldView {
   std::vector<Layer> layers_ = {{{}, std::make_shared<const sea::InteractionSnapshot>(), 0.0}};
   wire::BodyTable bodies_;
   double water_level_m_ = 0.0;
+  wire::RopeList ropes_ = std::make_shared<const std::vector<wire::TiedRope>>();
 };
 
 /// Follows the world of one session from the frames of a Watch with `every_frame`.

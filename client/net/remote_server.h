@@ -58,6 +58,7 @@ struct ListedBody {
 struct BodyList {
   Tick tick = 0;
   std::vector<ListedBody> bodies;
+  std::vector<wire::TiedRope> ropes;
 };
 
 struct ListedPreset {

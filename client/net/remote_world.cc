@@ -111,6 +111,7 @@ absl::StatusOr<BodyList> RemoteServer::ListBodies(const std::string& session) {
     listed.state = wire::FromProto(body.state());
     listed.driver = body.driver();
   }
+  ONESEA_ASSIGN_OR_RETURN(list.ropes, wire::RopesFromProto("", response.ropes()));
   return list;
 }
 

@@ -78,8 +78,9 @@ inline constexpr int kThrustersMax = 8;
 inline constexpr int kRuddersMax = 4;
 inline constexpr int kBodyNameLengthMax = 64;
 inline constexpr int kBodyAgeTicksMax =
-    10'000;                             // of a state in a keyframe; those at rest are older
-inline constexpr int kRopesMax = 1024;  // of one session
+    10'000;  // of a state in a keyframe; those at rest are older
+inline constexpr double kRestAfterMaxS = 3600.0;  // of a region's body
+inline constexpr int kRopesMax = 1024;            // of one session
 inline constexpr double kRopeLengthMaxM = 1e4;
 inline constexpr double kRopeStretchMax = 1.5;         // of a new one
 inline constexpr double kRopeStiffnessMaxNPerM = 1e9;  // damping too, in N s/m

@@ -7,6 +7,7 @@
 #include "common/base/limits.h"
 #include "common/wire/bounds.h"
 #include "common/wire/proto_body.h"
+#include "common/wire/proto_world.h"
 
 namespace onesea::wire {
 namespace {
@@ -100,6 +101,9 @@ void ToProto(const WorldUpdate& update, v1::WorldUpdate* out) {
     ToProto(spray.velocity_m_per_s, to->mutable_velocity_m_per_s());
     to->set_mass_kg(spray.mass_kg);
   }
+  if (update.ropes == nullptr) return;
+  v1::WorldUpdate::Ropes* const ropes = out->mutable_ropes();  // told even if there are none
+  for (const TiedRope& rope : *update.ropes) ToProto(rope, ropes->add_ropes());
 }
 
 absl::StatusOr<WorldUpdate> FromProto(const v1::WorldUpdate& proto) {
@@ -119,6 +123,11 @@ absl::StatusOr<WorldUpdate> FromProto(const v1::WorldUpdate& proto) {
     update.water_level_m = proto.water_level_m();
   }
   ONESEA_ASSIGN_OR_RETURN(update.spray, ReadSpray(proto));
+  if (proto.has_ropes()) {
+    ONESEA_ASSIGN_OR_RETURN(std::vector<TiedRope> ropes,
+                            RopesFromProto("world.", proto.ropes().ropes()));
+    update.ropes = std::make_shared<const std::vector<TiedRope>>(std::move(ropes));
+  }
   return update;
 }
 

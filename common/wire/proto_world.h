@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "absl/status/statusor.h"
 #include "common/wire/world_command.h"
@@ -22,6 +23,11 @@ void ToProto(const RopeSpec& rope, v1::Rope* out);
 RopeSpec FromProto(const v1::Rope& proto);
 void ToProto(const WaterLevel& level, v1::WaterLevel* out);
 WaterLevel FromProto(const v1::WaterLevel& proto);
+void ToProto(const TiedRope& rope, v1::TiedRope* out);
+/// At most kRopesMax, their ids ascending, each of them valid; whether there are such bodies is not
+/// asked.
+absl::StatusOr<std::vector<TiedRope>> RopesFromProto(
+    const std::string& prefix, const google::protobuf::RepeatedPtrField<v1::TiedRope>& ropes);
 
 /// A command with its header, validated.
 struct HeadedCommand {

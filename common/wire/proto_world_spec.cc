@@ -37,6 +37,7 @@ void ToProto(const RegionSpec& region, v1::RegionSpec* out) {
   out->set_height_step_m(region.height_step_m);
   out->set_frames_per_update(region.frames_per_update);
   out->set_rain_drops_per_m2_s(region.rain_drops_per_m2_s);
+  out->set_rest_after_s(region.rest_after_s);
 }
 
 absl::StatusOr<RegionSpec> FromProto(const v1::RegionSpec& proto) {
@@ -62,6 +63,7 @@ absl::StatusOr<RegionSpec> FromProto(const v1::RegionSpec& proto) {
   if (proto.has_height_step_m()) region.height_step_m = proto.height_step_m();
   if (proto.frames_per_update() != 0) region.frames_per_update = proto.frames_per_update();
   region.rain_drops_per_m2_s = proto.rain_drops_per_m2_s();
+  region.rest_after_s = proto.rest_after_s();
   return region;
 }
 
@@ -91,6 +93,30 @@ void ToProto(const WaterLevel& level, v1::WaterLevel* out) {
 }
 
 WaterLevel FromProto(const v1::WaterLevel& proto) { return {proto.time_s(), proto.level_m()}; }
+
+void ToProto(const TiedRope& rope, v1::TiedRope* out) {
+  out->set_id(rope.id);
+  ToProto(rope.spec, out->mutable_rope());
+}
+
+absl::StatusOr<std::vector<TiedRope>> RopesFromProto(
+    const std::string& prefix, const google::protobuf::RepeatedPtrField<v1::TiedRope>& ropes) {
+  ONESEA_RETURN_IF_ERROR(
+      CheckSize(prefix, "ropes", static_cast<std::size_t>(ropes.size()), kRopesMax));
+  std::vector<TiedRope> read;
+  std::uint32_t before = 0;
+  for (const v1::TiedRope& rope : ropes) {
+    const std::string entry = absl::StrCat(prefix, "ropes[", read.size(), "].");
+    if (rope.id() <= before) {
+      return absl::InvalidArgumentError(
+          absl::StrCat(entry, "id: ", rope.id(), " is not above ", before, ", the one before"));
+    }
+    before = rope.id();
+    read.push_back({rope.id(), FromProto(rope.rope())});
+    ONESEA_RETURN_IF_ERROR(ValidateRopeSpec(entry + "rope.", read.back().spec));
+  }
+  return read;
+}
 
 void ToProto(const WorldSpec& world, v1::WorldSpec* out) {
   // A path is of one machine; what is read from it has its own message.

@@ -7,6 +7,12 @@
 
 namespace onesea::wire {
 
+namespace {
+
+RopeList NoRopes() { return std::make_shared<const std::vector<TiedRope>>(); }
+
+}  // namespace
+
 WorldEncoder::WorldEncoder(double tick_s, const WorldEncoderOptions& options)
     : tiles_(options.tiles), bodies_(tick_s, options.bodies) {}
 
@@ -34,6 +40,8 @@ WorldUpdate WorldEncoder::Encode(const WorldState& state) {
   update.bodies = bodies_.Encode(state.tick, state.bodies);
   if (water_level_m_ != state.water_level_m) update.water_level_m = state.water_level_m;
   water_level_m_ = state.water_level_m;
+  if (ropes_ != state.ropes) update.ropes = state.ropes != nullptr ? state.ropes : NoRopes();
+  ropes_ = state.ropes;
   const auto told = std::min<std::size_t>(state.spray.size(), kSprayMax);
   update.spray.assign(state.spray.begin(), state.spray.begin() + told);
   return update;
@@ -67,6 +75,7 @@ WorldUpdate WorldEncoder::Keyframe() {
   update.tiles = tiles_.Keyframe();
   update.bodies = bodies_.Keyframe();
   update.water_level_m = water_level_m_;
+  if (ropes_ != nullptr && !ropes_->empty()) update.ropes = ropes_;
   return update;
 }
 

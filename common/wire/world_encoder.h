@@ -28,6 +28,7 @@ struct WorldState {
   std::span<const BodyView> bodies;  ///< all bodies, ascending by id; see BodyEncoder
   double water_level_m = 0.0;
   std::span<const Spray> spray;  ///< since the last call; the first kSprayMax are told
+  RopeList ropes = nullptr;      ///< another pointer: they changed; null: none
 };
 
 struct WorldEncoderOptions {
@@ -59,6 +60,7 @@ class WorldEncoder {
   Tick tick_ = 0;
   std::int64_t updates_ = 0;
   std::optional<double> water_level_m_;
+  RopeList ropes_;
   std::uint32_t last_id_ = 0;
   std::vector<RegionLayout> regions_, former_;
   std::vector<TileField> fields_;

@@ -44,7 +44,9 @@ absl::Status ValidateRegionSpec(const std::string& prefix, const RegionSpec& reg
       CheckReal(prefix, "height_step_m", region.height_step_m, kHeightStepMinM, kHeightStepMaxM));
   ONESEA_RETURN_IF_ERROR(
       CheckInteger(prefix, "frames_per_update", region.frames_per_update, 1, kFramesPerUpdateMax));
-  return CheckReal(prefix, "rain_drops_per_m2_s", region.rain_drops_per_m2_s, 0.0, kRainMaxPerM2S);
+  ONESEA_RETURN_IF_ERROR(
+      CheckReal(prefix, "rain_drops_per_m2_s", region.rain_drops_per_m2_s, 0.0, kRainMaxPerM2S));
+  return CheckReal(prefix, "rest_after_s", region.rest_after_s, 0.0, kRestAfterMaxS);
 }
 
 absl::Status ValidateWaterLevel(const std::string& prefix, std::span<const WaterLevel> levels) {

@@ -30,6 +30,9 @@ inline constexpr double kFarCellM = 1.0;
 inline constexpr double kFarHeightStepM = 4e-3;
 inline constexpr int kFarFramesPerUpdate = 3;
 
+/// What those ask for who spawn a boat for somebody: whoever leaves his boat gives its region back.
+inline constexpr double kRestAfterS = 60.0;
+
 enum class RegionSolver : std::uint8_t { kIwave = 1, kWaveEquation = 2, kShallowWater = 3 };
 
 /// A region of the interaction layer as it is asked for.
@@ -43,6 +46,7 @@ struct RegionSpec {
   double height_step_m = 1e-3;       ///< on the wire: viewers are within one step
   int frames_per_update = 1;         ///< tiles go with every so manieth streamed frame, [1, 60]
   double rain_drops_per_m2_s = 0.0;  ///< [0, kRainMaxPerM2S]
+  double rest_after_s = 0.0;  ///< [0, kRestAfterMaxS]; > 0: given back while its body is at rest
   friend bool operator==(const RegionSpec&, const RegionSpec&) = default;
 };
 
@@ -71,6 +75,13 @@ struct RopeSpec {
   double stiffness_n_per_m = 1e4;  ///< (0, 1e9]
   double damping_n_s_per_m = 1e3;  ///< [0, 1e9] while taut
   friend bool operator==(const RopeSpec&, const RopeSpec&) = default;
+};
+
+/// One that is tied.
+struct TiedRope {
+  std::uint32_t id = 0;  ///< > 0
+  RopeSpec spec;
+  friend bool operator==(const TiedRope&, const TiedRope&) = default;
 };
 
 struct WorldSpec {

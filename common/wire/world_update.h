@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -7,6 +8,7 @@
 #include "common/base/vec.h"
 #include "common/wire/body_encoder.h"
 #include "common/wire/tile_codec.h"
+#include "common/wire/world_spec.h"
 
 namespace onesea::wire {
 
@@ -17,6 +19,9 @@ struct Spray {
   friend bool operator==(const Spray&, const Spray&) = default;
 };
 
+/// Shared by all who hold it, so that unchanged ropes cost a comparison of pointers.
+using RopeList = std::shared_ptr<const std::vector<TiedRope>>;
+
 /// What one frame says of the interaction layer and of bodies: what changed, or in a keyframe all
 /// that there is. The same for every viewer.
 struct WorldUpdate {
@@ -25,6 +30,9 @@ struct WorldUpdate {
   BodyUpdate bodies;
   std::optional<double> water_level_m;  ///< of the whole sea above the mean; none: as before
   std::vector<Spray> spray;             ///< at most kSprayMax; none in a keyframe
+  /// All of them, ids ascending; their bodies may be unknown. Null: as before, or in a keyframe
+  /// none.
+  RopeList ropes = nullptr;
 };
 
 }  // namespace onesea::wire

@@ -159,6 +159,10 @@ grpc::ServerUnaryReactor* OneSeaService::ListBodies(grpc::CallbackServerContext*
                   out->mutable_state());
     out->set_driver((*session)->HolderOf(state.id));
   }
+  if (view.world->ropes != nullptr) {
+    for (const wire::TiedRope& rope : *view.world->ropes)
+      wire::ToProto(rope, response->add_ropes());
+  }
   return Answer(context, absl::OkStatus());
 }
 

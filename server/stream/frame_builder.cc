@@ -100,7 +100,8 @@ void FrameBuilder::EncodeWorld(wire::Frame& frame) {
                                   .streaming = world_->streaming,
                                   .bodies = world_->bodies,
                                   .water_level_m = world_->water_level_m,
-                                  .spray = spray_});
+                                  .spray = spray_,
+                                  .ropes = world_->ropes});
   spray_.clear();
   world_told_ = true;
 }

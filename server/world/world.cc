@@ -61,6 +61,7 @@ void World::Step(Tick tick, const std::shared_ptr<const sea::Components>& compon
     return;
   }
   const SimTime start = TimeOfTick(tick_, options_.tick_rate_hz);
+  WakeRegions();
   PlaceRegions().IgnoreError();  // a region without water is left out until there is some
   Done(WorldStage::kRegionsPlaced);
   SampleSea(tick_, components);
@@ -80,6 +81,7 @@ void World::Step(Tick tick, const std::shared_ptr<const sea::Components>& compon
   Water water(water_);
   rigid_.Step(water, AirAt(components->recipe, start));
   SprayFromBodies();
+  NoteActivity();
   Done(WorldStage::kBodiesMoved);
   layer_.Step();
   Done(WorldStage::kRegionsStepped);
@@ -105,27 +107,6 @@ void World::KeepPast() {
   }
   past->erase(past->begin(), oldest);
   past_ = std::move(past);
-}
-
-absl::Status World::PlaceRegions() {
-  std::vector<RegionAsk> asks;
-  for (const auto& [id, spec] : regions_) {
-    RegionAsk ask{.id = id,
-                  .kind = static_cast<SolverKind>(spec.solver),
-                  .cell_m = spec.cell_m,
-                  .columns = spec.columns,
-                  .rows = spec.rows,
-                  .centre_m = spec.middle_m,
-                  .damping_per_s = spec.damping_per_s,
-                  .traits = {.height_step_m = spec.height_step_m,
-                             .frames_per_update = spec.frames_per_update,
-                             .rain_drops_per_m2_s = spec.rain_drops_per_m2_s}};
-    if (const BodyState* body = rigid_.FindState(spec.follow_body_id); body != nullptr) {
-      ask.centre_m = {body->pose.centre_m.x, body->pose.centre_m.y};
-    }
-    asks.push_back(ask);
-  }
-  return layer_.Place(asks);
 }
 
 void World::SampleSea(Tick tick, const std::shared_ptr<const sea::Components>& components) {
@@ -215,7 +196,11 @@ void World::PressBody(Body& body, const HeightPatch& incident) {
   const double share = std::min(wet_m3 / model.rest.volume_m3, 1.5);
   body.pressed_share += (share - body.pressed_share) * step_s_ / (kPressLagS + step_s_);
   RegionForcing* forcing = layer_.ForcingAt(place);
-  if (forcing == nullptr) return;
+  if (forcing == nullptr) {
+    // In the next region it presses as one that was just spawned does, and makes no splash.
+    body.pressed_share = 0.0;
+    return;
+  }
   forcing->has_pressure = true;
   if (model.spec.radiation == Radiation::kGrid) {
     AddDisplacedColumns(model.mesh, model.centre_of_mass_m, state.pose, incident, forcing->cells,
@@ -291,6 +276,7 @@ void World::Publish(Change change) {
   view->water_level_m = LevelAt(TimeOfTick(tick_, options_.tick_rate_hz));
   view->interaction = change == Change::kBodies ? view_->interaction : layer_.Snapshot(tick_, true);
   view->past = past_;
+  view->ropes = ropes_;
   if (change == Change::kTick) {
     SprayFromCrests(*view);
     spray_.resize(std::min<std::size_t>(spray_.size(), kSprayMax));
@@ -314,6 +300,17 @@ void World::Publish(Change change) {
   view_ = std::move(view);
 }
 
+// After every command that may tie or untie one.
+void World::ListRopes() {
+  std::vector<wire::TiedRope> ropes;
+  for (auto& [id, spec] : rigid_.State().ropes) {
+    ropes.push_back({static_cast<std::uint32_t>(id), spec});
+  }
+  if (ropes_ != nullptr ? ropes == *ropes_ : ropes.empty()) return;
+  ropes_ = ropes.empty() ? nullptr
+                         : std::make_shared<const std::vector<wire::TiedRope>>(std::move(ropes));
+}
+
 std::shared_ptr<const std::string> World::FindMesh(std::uint64_t hash) const {
   for (const auto& [id, body] : bodies_) {
     if (body.mesh != nullptr && body.info->shape.mesh_hash == hash) return body.mesh;
@@ -329,8 +326,16 @@ std::uint64_t World::Hash() const {
   for (const auto& [id, body] : bodies_) {
     hash.Add(id);
     hash.Add(body.pressed_share);
+    hash.Add(body.mean_m_per_s.x);
+    hash.Add(body.mean_m_per_s.y);
+    hash.Add(body.active_tick);
   }
-  for (const auto& [id, spec] : regions_) hash.Add(id);
+  for (const auto& [id, region] : regions_) {
+    hash.Add(id);
+    hash.Add(region.since_tick);
+    hash.Add(static_cast<std::int64_t>(region.resting));
+    hash.Add(region.end_tick.value_or(0));
+  }
   obstacles_.AddTo(hash);
   return hash.value();
 }

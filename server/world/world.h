@@ -74,6 +74,7 @@ struct WorldView {
   std::vector<wire::RegionStreaming> streaming;                 ///< one per region
   std::vector<wire::BodyView> bodies;                           ///< ascending ids
   std::vector<wire::Spray> spray;  ///< thrown up in this tick, at most kSprayMax
+  wire::RopeList ropes = nullptr;  ///< null: none; the same object until they change
   bool empty() const { return interaction->fields.empty() && bodies.empty(); }
 };
 
@@ -145,10 +146,19 @@ class World {
     bool wetness_known = false;
     double pressed_share = 0.0;  // of the displacement at rest, lagging behind the true one
     bool is_to_float = false;    // on the waves of its first step, which it was spawned without
+    Vec2d mean_m_per_s;          // through the water, over kRestMeanS
+    Tick active_tick = 0;        // the last at which it wasn't at rest
     std::vector<LumpedColumn> columns;             // at rest, for cells of columns_cell_m
     double columns_cell_m = 0.0;                   // 0: not made yet
     std::size_t first_point = 0, point_count = 0;  // of its water
     std::vector<sea::InteractionFelt> felt;        // there in the last step; of owners' bodies
+  };
+  // A region as it was asked for.
+  struct AskedRegion {
+    wire::RegionSpec spec;
+    Tick since_tick = 0;   // there for so long: who came first keeps his place
+    bool resting = false;  // given back until its body is active again
+    std::optional<Tick> end_tick = std::nullopt;  // its body is gone
   };
   class Water;
 
@@ -167,6 +177,11 @@ class World {
     if (options_.after_stage) options_.after_stage(stage);
   }
   absl::Status PlaceRegions();
+  bool IsAtRest(const wire::RegionSpec& region) const;
+  void WakeRegions();
+  void LeaveRegionsOf(std::uint32_t body_id, Vec2d place_m);
+  void NoteActivity();
+  void NoteCommand(const wire::WorldCommand& command);
   void SampleSea(Tick tick, const std::shared_ptr<const sea::Components>& components);
   void FloatNewBodies();
   void AddWaterUnder(Body& body);
@@ -181,6 +196,7 @@ class World {
   void HoldObstacles();
   enum class Change : std::uint8_t { kTick, kRegions, kBodies };
   void Publish(Change change);
+  void ListRopes();
   void KeepPast();
 
   WorldOptions options_;
@@ -192,7 +208,7 @@ class World {
   InteractionLayer layer_;
   Obstacles obstacles_;
   std::map<std::uint32_t, Body> bodies_;
-  std::map<std::uint32_t, wire::RegionSpec> regions_;  // as they were asked for
+  std::map<std::uint32_t, AskedRegion> regions_;
   std::uint32_t next_region_id_ = 1, next_obstacle_id_ = 1;
 
   // The sea of the present tick.
@@ -205,6 +221,7 @@ class World {
   WetScratch scratch_;
   std::vector<sea::InteractionFelt> felt_;
   std::vector<wire::Spray> spray_;  // since the last tick
+  wire::RopeList ropes_;            // those of rigid_, as they are published
   std::vector<sea::SurfaceSample> obstacle_samples_;
   std::shared_ptr<const sea::InteractionPast> past_ =
       std::make_shared<const sea::InteractionPast>();

@@ -57,9 +57,13 @@ absl::StatusOr<PreparedBody> PrepareBody(wire::BodyDescription given) {
 absl::Status World::Begin(const wire::WorldSpec& spec) {
   levels_ = spec.water_level;
   wind_m_per_s_ = spec.body_wind_m_per_s;
-  for (const wire::StartBody& start : spec.bodies) {
-    ONESEA_ASSIGN_OR_RETURN(const PreparedBody body, PrepareBody(start.body));
-    ONESEA_RETURN_IF_ERROR(Spawn(body, start.start).status());
+  for (std::size_t n = 0; n < spec.bodies.size(); ++n) {
+    const absl::StatusOr<PreparedBody> body = PrepareBody(spec.bodies[n].body);
+    if (!body.ok()) {
+      return absl::Status(body.status().code(),
+                          absl::StrCat("world.bodies[", n, "].body.", body.status().message()));
+    }
+    ONESEA_RETURN_IF_ERROR(Spawn(*body, spec.bodies[n].start).status());
   }
   for (const wire::RegionSpec& region : spec.regions) {
     ONESEA_RETURN_IF_ERROR(Do(wire::AddRegion{region}).status());
@@ -67,6 +71,7 @@ absl::Status World::Begin(const wire::WorldSpec& spec) {
   for (const wire::RopeSpec& rope : spec.ropes) {
     ONESEA_RETURN_IF_ERROR(rigid_.AddRope(rope).status());
   }
+  ListRopes();
   Publish(Change::kRegions);
   return absl::OkStatus();
 }
@@ -88,6 +93,7 @@ absl::StatusOr<std::uint32_t> World::Spawn(const PreparedBody& prepared,
   body.stepped = rigid_.FindBody(id);
   body.mesh = prepared.mesh;
   body.is_to_float = is_to_float;
+  body.active_tick = tick_;
   wire::BodyInfo info = prepared.info;
   info.id = wire_id;
   body.info = std::make_shared<const wire::BodyInfo>(std::move(info));
@@ -113,19 +119,20 @@ absl::StatusOr<std::uint32_t> World::Apply(const wire::WorldCommand& command) {
       command);
   const bool regions_changed = std::holds_alternative<wire::AddRegion>(command) ||
                                std::holds_alternative<wire::RemoveRegion>(command);
-  if (id.ok()) Publish(regions_changed ? Change::kRegions : Change::kBodies);
+  if (!id.ok()) return id;
+  NoteCommand(command);
+  const bool ropes_changed = std::holds_alternative<wire::AddRope>(command) ||
+                             std::holds_alternative<wire::RemoveRope>(command) ||
+                             std::holds_alternative<wire::RemoveBody>(command);
+  if (ropes_changed) ListRopes();
+  Publish(regions_changed ? Change::kRegions : Change::kBodies);
   return id;
 }
 
 absl::StatusOr<std::uint32_t> World::Do(const wire::RemoveBody& command) {
   const BodyState* state = rigid_.FindState(command.body_id);
   if (state == nullptr) return NoBody(command.body_id);
-  // Its wake goes on where it was.
-  for (auto& [id, region] : regions_) {
-    if (region.follow_body_id != command.body_id) continue;
-    region.follow_body_id = 0;
-    region.middle_m = {state->pose.centre_m.x, state->pose.centre_m.y};
-  }
+  LeaveRegionsOf(command.body_id, {state->pose.centre_m.x, state->pose.centre_m.y});
   ONESEA_RETURN_IF_ERROR(rigid_.Remove(command.body_id));
   bodies_.erase(command.body_id);
   return command.body_id;
@@ -189,39 +196,6 @@ absl::StatusOr<std::uint32_t> World::Do(const wire::RemoveObstacle& command) {
   if (obstacles_.Remove(command.obstacle_id)) return command.obstacle_id;
   return absl::NotFoundError(
       absl::StrCat("obstacle_id: there is no obstacle ", command.obstacle_id));
-}
-
-absl::StatusOr<std::uint32_t> World::Do(const wire::AddRegion& command) {
-  if (regions_.size() >= kRegionsMax) {
-    return absl::ResourceExhaustedError(
-        absl::StrCat("the session has ", kRegionsMax, " regions, the most there can be"));
-  }
-  std::int64_t cells = std::int64_t{command.region.columns} * command.region.rows;
-  for (const auto& [id, spec] : regions_) cells += std::int64_t{spec.columns} * spec.rows;
-  if (cells > kRegionCellsMax) {
-    return absl::ResourceExhaustedError(absl::StrCat("region: with it the session would have ",
-                                                     cells, " cells, the limit is ",
-                                                     kRegionCellsMax));
-  }
-  const std::uint32_t follows = command.region.follow_body_id;
-  if (follows != 0 && !HasBody(follows)) return NoBody(follows);
-  const std::uint32_t id = next_region_id_;
-  regions_[id] = command.region;
-  if (absl::Status placed = PlaceRegions(); !placed.ok()) {
-    regions_.erase(id);
-    PlaceRegions().IgnoreError();
-    return placed;
-  }
-  ++next_region_id_;
-  return id;
-}
-
-absl::StatusOr<std::uint32_t> World::Do(const wire::RemoveRegion& command) {
-  if (regions_.erase(command.region_id) == 0) {
-    return absl::NotFoundError(absl::StrCat("region_id: there is no region ", command.region_id));
-  }
-  PlaceRegions().IgnoreError();
-  return command.region_id;
 }
 
 absl::StatusOr<std::uint32_t> World::Do(const wire::AddRope& command) {

@@ -28,6 +28,7 @@ absl::StatusOr<std::vector<wire::BodyWrench>> World::SetPoses(
     Body& body = bodies_[id];
     const Vec3d way_m = states[n].pose.centre_m - rigid_.FindState(id)->pose.centre_m;
     body.is_to_float = false;
+    body.active_tick = tick_;
     if (Norm(way_m) > body.model->hull.radius_m()) {
       body.pressed_share = 0.0;
       body.felt.clear();

@@ -12,7 +12,7 @@ struct World::Saved {
   InteractionState layer;
   Obstacles obstacles;
   std::map<std::uint32_t, Body> bodies;
-  std::map<std::uint32_t, wire::RegionSpec> regions;
+  std::map<std::uint32_t, AskedRegion> regions;
   std::uint32_t next_region_id = 1, next_obstacle_id = 1;
   std::vector<double> wavenumbers;  // held for a second
 };
@@ -47,6 +47,7 @@ absl::Status World::Restore(const Saved& saved) {
   wavenumbers_ = saved.wavenumbers;
   past_ = std::make_shared<const sea::InteractionPast>();
   spray_.clear();
+  ListRopes();
   Publish(Change::kRegions);
   return absl::OkStatus();
 }

@@ -163,6 +163,29 @@ class World(unittest.TestCase):
             self.assertEqual(gone.returncode, 1, words)
             self.assertIn("there is no", gone.stderr)
 
+    def test_ropes_are_listed(self):
+        crate = self.ask("spawn", "crate", "--at", "-60,60", "--no-wake")["id"]
+        buoy = self.ask("spawn", "buoy", "--at", "-60,80", "--no-wake")["id"]
+        self.assertEqual(self.ask("ropes")["ropes"], [])
+        mooring = self.ask("rope", "--from", f"{crate}@0.5,0,0.25", "--to", "-60,50,-2", "--length", "15")["id"]
+        tow = self.ask("rope", "--from", str(crate), "--to", str(buoy), "--length", "30")["id"]
+        ropes = {rope["id"]: rope for rope in self.ask("ropes")["ropes"]}
+        self.assertEqual(set(ropes), {mooring, tow})
+        self.assertEqual(ropes[mooring]["from"], {"body": crate, "x_m": 0.5, "y_m": 0.0, "z_m": 0.25})
+        self.assertEqual(ropes[mooring]["to"], {"body": 0, "x_m": -60.0, "y_m": 50.0, "z_m": -2.0})
+        self.assertEqual(ropes[tow]["length_m"], 30.0)
+        self.assertAlmostEqual(ropes[tow]["apart_m"], 20.0, delta=1.5)
+        told = SERVER.onesea("ropes", "--session", "tank-world").stdout.splitlines()
+        self.assertIn("2 ropes", told[0])
+        self.assertIn(f"{crate}@0,0,0 crate", told[2])
+        self.assertIn(f"{buoy}@0,0,0 buoy", told[2])
+        self.assertIn("slack", told[2])
+        self.ask("rope", "--remove", str(mooring))
+        self.assertEqual([rope["id"] for rope in self.ask("ropes")["ropes"]], [tow])
+        self.ask("remove", str(buoy))  # and its rope
+        self.assertEqual(self.ask("ropes")["ropes"], [])
+        self.ask("remove", str(crate))
+
     def test_instruments_write_csv(self):
         buoy = self.ask("spawn", "buoy", "--at", "20,0", "--no-wake")["id"]
         with tempfile.TemporaryDirectory() as folder:
@@ -203,6 +226,8 @@ class World(unittest.TestCase):
                 (2, ["region"], "--at"), (2, ["region", "--at", "0,0", "--cells", "1x2x3"], "COLUMNSxROWS"),
                 (1, ["region", "--at", "0,0", "--cells", "100"], "multiple of 32"),
                 (2, ["region", "--at", "0,0", "--solver", "magic"], "--solver"),
+                (2, ["region", "--at", "0,0", "--rest", "nan"], "--rest"),
+                (2, ["ropes", "1"], "no operand"),
                 (2, ["instruments"], "--gauge"), (2, ["instruments", "--gauge", "0"], "--gauge"),
                 (2, ["instruments", "--imu", "0,0,0,0"], "--imu"),
                 (2, ["instruments", "--imu", "1.5,0,0,0"], "--imu"),

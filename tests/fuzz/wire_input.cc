@@ -93,6 +93,12 @@ void CheckFrame(std::string_view bytes) {
   if (IsTickInRange(frame->world->tick, 60)) {
     bodies.Apply(frame->world->bodies, frame->world->tick, 60, true).IgnoreError();
   }
+  if (frame->world->ropes != nullptr) {
+    ONESEA_CHECK(frame->world->ropes->size() <= static_cast<std::size_t>(kRopesMax));
+    for (const wire::TiedRope& rope : *frame->world->ropes) {
+      ONESEA_CHECK(rope.id > 0 && wire::ValidateRopeSpec("", rope.spec).ok());
+    }
+  }
   for (const wire::BodyTable::Body& body : bodies.bodies()) {
     ONESEA_CHECK(body.info != nullptr && body.info->id == body.newest.id);
     ONESEA_CHECK(std::isfinite(Norm(body.At(SimTime::FromSeconds(1e9)).position_m)));

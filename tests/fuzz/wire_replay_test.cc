@@ -42,6 +42,8 @@ std::vector<std::string> Corpus() {
     whole.world->bodies =
         bodies.Encode(static_cast<Tick>(frame) * 60, std::vector{Boat(2), Boat(700)});
     whole.world->spray.resize(2);
+    whole.world->ropes = std::make_shared<const std::vector<wire::TiedRope>>(
+        std::vector<wire::TiedRope>{{3, {{2, {}}, {700, {}}}}, {4, {{2, {}}, {0, {1, 2, 3}}}}});
     for (const std::string& blob : whole.world->tiles.blobs) {
       corpus.push_back(std::string(1, '\0') + blob);
     }

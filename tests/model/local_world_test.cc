@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "client/model/rope_ends.h"
 #include "common/base/limits.h"
 #include "common/wire/world_encoder.h"
 
@@ -45,9 +46,14 @@ class FakeWorld {
                                    .interaction = &snapshot,
                                    .bodies = {&boat, 1},
                                    .water_level_m = 0.75,
-                                   .spray = {}});
+                                   .spray = {},
+                                   .ropes = ropes_});
     return Sent(frame);
   }
+  void Tie(std::vector<wire::TiedRope> ropes) {
+    ropes_ = std::make_shared<const std::vector<wire::TiedRope>>(std::move(ropes));
+  }
+  void Untie() { ropes_ = nullptr; }
   wire::Frame Keyframe() {
     wire::Frame frame;
     frame.keyframe = true;
@@ -70,6 +76,7 @@ class FakeWorld {
   Tick tick_ = 0;
   std::vector<float> heights_ = std::vector<float>(kCells.cells());
   std::shared_ptr<const wire::BodyInfo> info_ = Boat();
+  wire::RopeList ropes_;
   wire::WorldEncoder encoder_{1.0 / kTickRateHz};
 };
 
@@ -252,6 +259,72 @@ TEST(LocalWorld, SprayIsTakenOnceAndBounded) {
   EXPECT_EQ(spray.front().position_m.x, 1.0);
   EXPECT_EQ(spray.back().position_m.x, 2.0);
   EXPECT_TRUE(world.TakeSpray().empty());
+}
+
+TEST(LocalWorld, RopesComeGoAndOutliveKeyframes) {
+  FakeWorld server;
+  LocalWorld world;
+  const auto ids = [&] {
+    std::vector<std::uint32_t> ids;
+    for (const wire::TiedRope& rope : world.view()->ropes()) ids.push_back(rope.id);
+    return ids;
+  };
+  const auto apply = [&](const wire::Frame& frame) {
+    ASSERT_TRUE(world.Apply(frame, kTickRateHz).ok());
+  };
+  server.Next();
+  apply(server.Keyframe());
+  EXPECT_TRUE(ids().empty());
+  server.Tie({{3, {{5, {}}, {0, {}}}}, {8, {{5, {}}, {77, {}}}}});
+  apply(server.Next());
+  apply(server.Next());  // which doesn't say it again
+  EXPECT_THAT(ids(), testing::ElementsAre(3, 8));
+  LocalWorld joiner;
+  ASSERT_TRUE(joiner.Apply(server.Keyframe(), kTickRateHz).ok());
+  EXPECT_EQ(joiner.view()->ropes().size(), 2U);
+  server.Untie();
+  apply(server.Next());
+  EXPECT_TRUE(ids().empty());
+  server.Tie({{9, {{5, {}}, {0, {}}}}});
+  apply(server.Next());
+  EXPECT_THAT(ids(), testing::ElementsAre(9));
+  server.Untie();
+  server.Next();  // lost
+  apply(server.Keyframe());
+  EXPECT_TRUE(ids().empty());
+}
+
+// The end on the boat goes with the boat as it is drawn, in or between frames, turned and all; one
+// on a body that never came draws nothing.
+TEST(RopesAt, EndsFollowTheBodiesThatAreDrawn) {
+  FakeWorld server;
+  LocalWorld world;
+  server.Next();
+  ASSERT_TRUE(world.Apply(server.Keyframe(), kTickRateHz).ok());
+  server.Tie({{3, {{5, {-3.0, 0.0, 0.5}}, {0, {10.0, 20.0, 1.0}}, 15.0}},
+              {8, {{5, {}}, {77, {}}}},
+              {9, {{78, {}}, {5, {}}}}});
+  ASSERT_TRUE(world.Apply(server.Next(), kTickRateHz).ok());
+  const auto view = world.view();
+  const SimTime later = server.time() + SimTime::FromSeconds(0.5);
+  const std::vector<RopeNow> ropes = RopesAt(*view, later);
+  ASSERT_EQ(ropes.size(), 1U);
+  EXPECT_EQ(ropes[0].id, 3U);
+  EXPECT_EQ(ropes[0].length_m, 15.0);
+  EXPECT_EQ(ropes[0].to_m, (Vec3d{10.0, 20.0, 1.0}));
+  const double x_m = 2.0 * later.Seconds();  // the boat's
+  EXPECT_NEAR(ropes[0].from_m.x, x_m - 3.0, 2e-3);
+  EXPECT_NEAR(ropes[0].from_m.y, 1.0, 2e-3);
+  EXPECT_NEAR(ropes[0].from_m.z, 0.5, 2e-3);
+  // The own boat is drawn as predicted: elsewhere and a quarter turn to port.
+  wire::BodyState own;
+  own.id = 5;
+  own.position_m = {100.0, 50.0, 0.25};
+  own.turn = TurnBy({0.0, 0.0, std::acos(0.0)});
+  const RopeNow rope = RopesAt(*view, later, own).front();
+  EXPECT_NEAR(rope.from_m.x, 100.0, 1e-9);
+  EXPECT_NEAR(rope.from_m.y, 47.0, 1e-9);
+  EXPECT_NEAR(rope.from_m.z, 0.75, 1e-9);
 }
 
 }  // namespace

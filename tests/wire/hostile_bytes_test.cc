@@ -77,6 +77,10 @@ TEST(HostileBytes, BitFlipsAreRefusedOrStayInRange) {
     if (frame->stamp) {
       EXPECT_TRUE(std::isfinite(frame->stamp->speed));
     }
+    if (!frame->world || frame->world->ropes == nullptr) continue;
+    for (const TiedRope& rope : *frame->world->ropes) {
+      EXPECT_TRUE(ValidateRopeSpec("", rope.spec).ok());
+    }
   }
   EXPECT_GT(refused, 1000);
 }

@@ -44,7 +44,7 @@ class WireVectors : public ::testing::Test {
   std::map<std::string, std::string> vectors = ReadVectors();
 };
 
-TEST_F(WireVectors, AllAreThere) { EXPECT_EQ(vectors.size(), 13u); }
+TEST_F(WireVectors, AllAreThere) { EXPECT_EQ(vectors.size(), 14u); }
 
 TEST_F(WireVectors, Stamp) {
   Frame frame;
@@ -213,6 +213,21 @@ TEST_F(WireVectors, World) {
   EXPECT_EQ(read.world->tiles.layout, frame.world->tiles.layout);
   EXPECT_EQ(read.world->bodies.states, Bytes("bodies"));
   EXPECT_EQ(read.world->water_level_m, 0.5);
+}
+
+TEST_F(WireVectors, Ropes) {
+  Frame frame;
+  frame.sequence = 301;
+  frame.world.emplace();
+  frame.world->tick = 602;
+  const TiedRope mooring = {5, {{1, {3.0, 0.0, 0.5}}, {0, {20.0, 0.0, 1.0}}, 18.0, 3000.0, 300.0}};
+  frame.world->ropes =
+      std::make_shared<const std::vector<TiedRope>>(std::vector<TiedRope>{mooring});
+  EXPECT_EQ(Hex(EncodeFrame(frame)), Hex(Bytes("ropes")));
+  const Frame read = DecodeFrame(Bytes("ropes")).value();
+  ASSERT_NE(read.world->ropes, nullptr);
+  ASSERT_EQ(read.world->ropes->size(), 1u);
+  EXPECT_EQ(read.world->ropes->front(), mooring);
 }
 
 TEST_F(WireVectors, Drive) {

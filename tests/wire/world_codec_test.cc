@@ -46,6 +46,37 @@ TEST(WorldCodec, AFrameKeepsItsWorld) {
   EXPECT_EQ(got.bodies.states, want.bodies.states);
   EXPECT_EQ(got.water_level_m, want.water_level_m);
   EXPECT_EQ(got.spray, want.spray);
+  ASSERT_NE(got.ropes, nullptr);
+  EXPECT_EQ(*got.ropes, *want.ropes);
+}
+
+TEST(WorldCodec, RopesOfAFrameAreBoundedAndInOrder) {
+  const auto refusal = [](std::vector<TiedRope> ropes) {
+    Frame frame;
+    frame.world.emplace();
+    frame.world->ropes = std::make_shared<const std::vector<TiedRope>>(std::move(ropes));
+    return std::string(DecodeFrame(EncodeFrame(frame)).status().message());
+  };
+  const TiedRope good = {7, {{1, {}}, {0, {5.0, 0.0, 0.0}}}};
+  EXPECT_EQ(refusal({good}), "");
+  EXPECT_THAT(refusal({good, good}), HasSubstr("world.ropes[1].id: 7 is not above 7"));
+  TiedRope bad = good;
+  bad.id = 0;
+  EXPECT_THAT(refusal({bad}), HasSubstr("world.ropes[0].id: 0"));
+  bad = good;
+  bad.spec.to.point_m.y = std::nan("");
+  EXPECT_THAT(refusal({bad}), HasSubstr("world.ropes[0].rope.to.point_m.y: nan"));
+  bad = good;
+  bad.spec.length_m = 2e4;
+  EXPECT_THAT(refusal({bad}), HasSubstr("world.ropes[0].rope.length_m: 20000"));
+  bad = good;
+  bad.spec.from.body_id = 0;
+  EXPECT_THAT(refusal({bad}), HasSubstr("both ends are in the world"));
+  std::vector<TiedRope> many(kRopesMax + 1, good);
+  for (std::size_t n = 0; n < many.size(); ++n) many[n].id = static_cast<std::uint32_t>(n + 1);
+  EXPECT_THAT(refusal(many), HasSubstr("world.ropes: 1025"));
+  many.pop_back();
+  EXPECT_EQ(refusal(many), "");
 }
 
 // A joiner needs them to know every height at every time.
@@ -87,9 +118,15 @@ TEST(WorldCodec, AWorldThatChangedNothingHasNoRegions) {
   ASSERT_TRUE(decoded.ok());
   EXPECT_FALSE(decoded->world->tiles.layout.has_value());
   EXPECT_FALSE(decoded->world->water_level_m.has_value());
+  EXPECT_EQ(decoded->world->ropes, nullptr);
   // An empty list of regions is something else: they have vanished.
   frame.world->tiles.layout.emplace();
   EXPECT_TRUE(DecodeFrame(EncodeFrame(frame))->world->tiles.layout.has_value());
+  // So is an empty list of ropes.
+  frame.world->ropes = std::make_shared<const std::vector<TiedRope>>();
+  const auto untied = DecodeFrame(EncodeFrame(frame));
+  ASSERT_NE(untied->world->ropes, nullptr);
+  EXPECT_TRUE(untied->world->ropes->empty());
 }
 
 TEST(WorldCodec, BodiesKeepEveryField) {
@@ -229,6 +266,9 @@ TEST(WorldCodec, CommandsOutOfTheirLimitsAreRefused) {
   region = FullRegion();
   region.cell_m = nan;
   refused(Through<v1::AddRegionRequest>(AddRegion{region}), "region.cell_m: nan");
+  region = FullRegion();
+  region.rest_after_s = 3601.0;
+  refused(Through<v1::AddRegionRequest>(AddRegion{region}), "region.rest_after_s: 3601");
   RopeSpec rope{{1, {}}, {0, {}}};
   rope.length_m = nan;
   refused(Through<v1::AddRopeRequest>(AddRope{rope}), "rope.length_m: nan");

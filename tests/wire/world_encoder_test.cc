@@ -127,6 +127,25 @@ TEST(WorldEncoder, WaterLevelIsToldWhenItChangesAndInKeyframes) {
   EXPECT_EQ(encoder.Encode(state).water_level_m, 0.75);
 }
 
+TEST(WorldEncoder, RopesAreToldWhenTheyChangeAndInKeyframes) {
+  WorldEncoder encoder(1.0 / 60.0);
+  WorldState state;
+  EXPECT_EQ(encoder.Encode(state).ropes, nullptr);
+  EXPECT_EQ(encoder.Keyframe().ropes, nullptr);
+  const auto list =
+      std::make_shared<const std::vector<TiedRope>>(std::vector<TiedRope>{{3, {{1, {}}, {2, {}}}}});
+  state.ropes = list;
+  EXPECT_EQ(encoder.Encode(state).ropes, list);
+  EXPECT_EQ(encoder.Encode(state).ropes, nullptr);
+  EXPECT_EQ(encoder.Keyframe().ropes, list);
+  state.ropes = nullptr;
+  const RopeList none = encoder.Encode(state).ropes;
+  ASSERT_NE(none, nullptr);
+  EXPECT_TRUE(none->empty());
+  EXPECT_EQ(encoder.Encode(state).ropes, nullptr);
+  EXPECT_EQ(encoder.Keyframe().ropes, nullptr);
+}
+
 TEST(WorldEncoder, SprayIsBoundedAndNotInKeyframes) {
   WorldEncoder encoder(1.0 / 60.0);
   const std::vector<Spray> spray(kSprayMax + 10);

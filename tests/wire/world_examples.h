@@ -49,7 +49,8 @@ inline RegionSpec FullRegion() {
           .damping_per_s = 0.02,
           .height_step_m = 4e-3,
           .frames_per_update = 3,
-          .rain_drops_per_m2_s = 0.25};
+          .rain_drops_per_m2_s = 0.25,
+          .rest_after_s = 90.0};
 }
 
 inline WorldUpdate FullUpdate() {
@@ -75,6 +76,9 @@ inline WorldUpdate FullUpdate() {
   update.bodies.states = "states";
   update.water_level_m = 1.25;
   update.spray = {{{1.0, 2.0, 0.5}, {0.0, 1.0, 3.0}, 2.5}};
+  update.ropes = std::make_shared<const std::vector<TiedRope>>(std::vector<TiedRope>{
+      {3, {{9, {0.0, 0.0, -0.45}}, {0, {330.0, -330.0, -16.0}}, 18.0, 3000.0, 300.0}},
+      {12, {{4, {-3.0, 0.0, 0.5}}, {9, {0.5, 0.25, 0.0}}, 25.0, 1e4, 1e3}}});
   return update;
 }
 
