@@ -109,6 +109,7 @@ void Craft::Done(Kind kind, std::int64_t number, const CommandAnswer& answer) {
       if (wake_) {
         wire::RegionSpec region;
         region.follow_body_id = id_;
+        region.rest_after_s = wire::kRestAfterS;
         Order(Kind::kRegion, wire::AddRegion{region});
       }
       [[fallthrough]];
