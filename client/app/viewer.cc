@@ -20,6 +20,7 @@
 #include "client/app/pose_log.h"
 #include "client/app/spray_bursts.h"
 #include "client/app/window.h"
+#include "client/model/rope_ends.h"
 #include "client/render/gl_objects.h"
 #include "client/render/offscreen_context.h"
 #include "client/render/renderer.h"
@@ -65,6 +66,11 @@ class Scene {
     if (const std::shared_ptr<const WorldView> world = source.world(); world != nullptr) {
       builder_.SetInteraction(world->shared_interaction());
       frame_.hulls = models_.At(*world, time, source.meshes(), cockpit.own());
+      frame_.ropes.clear();
+      for (const RopeNow& rope : RopesAt(*world, time, cockpit.own())) {
+        frame_.ropes.push_back(
+            {.from_m = rope.from_m, .to_m = rope.to_m, .length_m = rope.length_m});
+      }
       spray_.Add(source.TakeSpray(), world->time());
       frame_.spray = spray_.At(time);
     }

@@ -108,6 +108,13 @@ struct SprayBurst {
   std::uint32_t seed = 1;
 };
 
+/// A mooring or a tow, hanging between two places (hanging_line.h).
+struct RopeLine {
+  Vec3d from_m, to_m;       ///< finite
+  double length_m = 1.0;    ///< straight where the ends are further apart
+  double radius_m = 0.018;  ///< > 0
+};
+
 struct Quality {
   int samples = 0;  ///< of the geometry pass: 4, 1 with edges smoothed afterwards, or 0 for
                     ///< 1 on a software renderer and 4 on a graphics card
@@ -138,6 +145,7 @@ struct RenderFrame {
   std::shared_ptr<const sea::AttenuationGrid> attenuation;
   double water_level_m = 0.0;     ///< of the whole sea above z = 0; waves and patches are added
   std::vector<SprayBurst> spray;  ///< the last kRenderSprayMax are drawn
+  std::vector<RopeLine> ropes;    ///< the first kRenderRopesMax are drawn
   double exposure_stops = 0.0;    ///< on top of the metered exposure
   Quality quality;
 };
@@ -146,6 +154,7 @@ inline constexpr int kRenderCascadesMax = 8;
 inline constexpr int kRenderRegularWavesMax = 32;
 inline constexpr int kRenderPatchesMax = 6;
 inline constexpr int kRenderSprayMax = 512;
+inline constexpr int kRenderRopesMax = 1024;
 inline constexpr double kSprayLifeS = 3.0;
 
 /// Borrows the planes of `fields`, which must hold sea::kRenderFields.

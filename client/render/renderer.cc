@@ -4,6 +4,7 @@
 #include <cmath>
 #include <ctime>
 #include <optional>
+#include <span>
 
 #include "client/render/atmosphere.h"
 #include "client/render/attenuation_texture.h"
@@ -12,6 +13,7 @@
 #include "client/render/passes/classify.h"
 #include "client/render/passes/hulls.h"
 #include "client/render/passes/ripples.h"
+#include "client/render/passes/ropes.h"
 #include "client/render/passes/sky.h"
 #include "client/render/passes/smooth_steps.h"
 #include "client/render/passes/spray.h"
@@ -41,7 +43,7 @@ bool IsSoftware() {
 
 struct Renderer::Impl {
   Impl(RipplePass r, SurfaceGridPass g, ClassifyPass c, SkyPass s, SurfacePass w, SmoothStepsPass e,
-       HullPass h, TerrainPass l, SprayPass d, ToneMapPass t)
+       HullPass h, RopePass o, TerrainPass l, SprayPass d, ToneMapPass t)
       : ripples(std::move(r)),
         grid(std::move(g)),
         classify(std::move(c)),
@@ -49,6 +51,7 @@ struct Renderer::Impl {
         surface(std::move(w)),
         smooth_steps(std::move(e)),
         hulls(std::move(h)),
+        ropes(std::move(o)),
         terrain(std::move(l)),
         spray(std::move(d)),
         tone(std::move(t)) {}
@@ -65,6 +68,7 @@ struct Renderer::Impl {
   void UploadSea(Picture& picture);
   OceanGrid FillBlock(Picture& picture);
   void ShadeSea(const Picture& picture, const HullMirror& mirror);
+  void DrawHullsAndRopes(const Picture& picture, bool hulls_in_view);
   void UploadBlock(const FrameBlock& block);
   template <typename F>
   void Pass(const char* name, F&& draw);
@@ -76,6 +80,7 @@ struct Renderer::Impl {
   SurfacePass surface;
   SmoothStepsPass smooth_steps;
   HullPass hulls;
+  RopePass ropes;
   TerrainPass terrain;
   SprayPass spray;
   ToneMapPass tone;
@@ -135,13 +140,14 @@ absl::StatusOr<std::unique_ptr<Renderer>> Renderer::Create() {
   ONESEA_ASSIGN_OR_RETURN(SurfacePass surface, SurfacePass::Create());
   ONESEA_ASSIGN_OR_RETURN(SmoothStepsPass smooth_steps, SmoothStepsPass::Create());
   ONESEA_ASSIGN_OR_RETURN(HullPass hulls, HullPass::Create());
+  ONESEA_ASSIGN_OR_RETURN(RopePass ropes, RopePass::Create());
   ONESEA_ASSIGN_OR_RETURN(TerrainPass terrain, TerrainPass::Create());
   ONESEA_ASSIGN_OR_RETURN(SprayPass spray, SprayPass::Create());
   ONESEA_ASSIGN_OR_RETURN(ToneMapPass tone, ToneMapPass::Create());
   return std::unique_ptr<Renderer>(new Renderer(std::make_unique<Impl>(
       std::move(ripples), std::move(grid), std::move(classify), std::move(sky), std::move(surface),
-      std::move(smooth_steps), std::move(hulls), std::move(terrain), std::move(spray),
-      std::move(tone))));
+      std::move(smooth_steps), std::move(hulls), std::move(ropes), std::move(terrain),
+      std::move(spray), std::move(tone))));
 }
 
 Renderer::Renderer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -217,6 +223,21 @@ void Renderer::Impl::ShadeSea(const Picture& picture, const HullMirror& mirror) 
                variant);
 }
 
+void Renderer::Impl::DrawHullsAndRopes(const Picture& picture, bool hulls_in_view) {
+  // From above, water hides what its troughs don't bare.
+  const double lowest_m = picture.block.eye.z < 0.0f ? -1e9 : -picture.displacement_max_m;
+  const bool ropes_in_view =
+      !picture.frame.ropes.empty() &&
+      ropes.Prepare(picture.frame, picture.block, lowest_m, picture.width, picture.height);
+  if (hulls_in_view) {
+    const std::span<const PixelBox> boxes =
+        ropes_in_view ? ropes.boxes() : std::span<const PixelBox>();
+    Pass("hulls", [&] { hulls.Draw(empty, scene, grid, sky, boxes); });
+  }
+  if (!ropes_in_view) return;
+  Pass("ropes", [&] { ropes.Draw(scene, grid, sky, hulls_in_view ? hulls.depth() : nullptr); });
+}
+
 void Renderer::Draw(const RenderFrame& frame, int width, int height, unsigned framebuffer) {
   ONESEA_CHECK(width > 0 && height > 0);
   ONESEA_CHECK(!frame.cascades.empty() && frame.cascades.size() <= kRenderCascadesMax);
@@ -254,7 +275,7 @@ void Renderer::Draw(const RenderFrame& frame, int width, int height, unsigned fr
   if (samples == 1) {
     r.Pass("steps", [&] { r.smooth_steps.Draw(r.empty, r.scene, r.grid, r.classify); });
   }
-  if (hulls) r.Pass("hulls", [&] { r.hulls.Draw(r.empty, r.scene, r.grid, r.sky); });
+  r.DrawHullsAndRopes(picture, hulls);
   if (!frame.spray.empty()) {
     r.Pass("spray", [&] { r.spray.Draw(frame, r.scene, r.grid, r.sky); });
   }

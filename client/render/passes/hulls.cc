@@ -9,6 +9,7 @@
 #include <span>
 
 #include "client/render/hull_levels.h"
+#include "client/render/pixel_boxes.h"
 #include "common/base/check.h"
 
 namespace onesea::render {
@@ -49,57 +50,6 @@ void Clear() {
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 
-PixelBox Union(const PixelBox& a, const PixelBox& b) {
-  return {std::min(a.left, b.left), std::min(a.bottom, b.bottom), std::max(a.right, b.right),
-          std::max(a.top, b.top)};
-}
-
-bool Overlap(const PixelBox& a, const PixelBox& b) {
-  return a.left < b.right && b.left < a.right && a.bottom < b.top && b.bottom < a.top;
-}
-
-// Adds a box; those that overlap become one, so that no pixel is drawn twice.
-void AddDisjoint(PixelBox box, std::vector<PixelBox>& boxes) {
-  for (std::size_t n = 0; n < boxes.size();) {
-    if (!Overlap(box, boxes[n])) {
-      ++n;
-      continue;
-    }
-    box = Union(box, boxes[n]);
-    boxes[n] = boxes.back();
-    boxes.pop_back();
-    n = 0;
-  }
-  boxes.push_back(box);
-}
-
-// Pixels that points may cover: all of them if one is not before the eye, none if that would be
-// less than `least` either way.
-PixelBox PictureOf(std::span<const glm::vec3> points, float least, const FrameBlock& block,
-                   int width, int height) {
-  glm::vec2 low(1e9f), high(-1e9f);
-  int behind = 0;
-  for (const glm::vec3& point : points) {
-    const glm::vec4 clip = block.clip_from_world * glm::vec4(point, 1.0f);
-    if (!(clip.w > 0.2f)) {
-      ++behind;
-      continue;
-    }
-    const glm::vec2 at = glm::vec2(0.5f + 0.5f * clip.x / clip.w, 0.5f + 0.5f * clip.y / clip.w) *
-                         glm::vec2(width, height);
-    low = glm::min(low, at);
-    high = glm::max(high, at);
-  }
-  if (behind == static_cast<int>(points.size())) return {};
-  if (behind > 0) return {0, 0, width, height};
-  if (std::max(high.x - low.x, high.y - low.y) < least) return {};
-  const auto pixel = [](float at, int most) {
-    return static_cast<int>(std::clamp(at, 0.0f, static_cast<float>(most)));
-  };
-  return {pixel(low.x - 2.0f, width), pixel(low.y - 2.0f, height), pixel(high.x + 2.0f, width),
-          pixel(high.y + 2.0f, height)};
-}
-
 }  // namespace
 
 absl::StatusOr<HullPass> HullPass::Create() {
@@ -108,10 +58,11 @@ absl::StatusOr<HullPass> HullPass::Create() {
   std::array<ShaderProgram, 8> programs;
   for (std::size_t n = 0; n < programs.size(); ++n) {
     auto program =
-        n < 6    ? ShaderProgram::Build({"frame.glsl", "hulls.vert.glsl"},
-                                        {"frame.glsl", "sky.glsl", "depth.glsl", "hulls.frag.glsl"},
-                                        {kKinds[n % 3][0], kKinds[n % 3][1],
-                                      n < 3 ? "PLAIN 0" : "PLAIN 1", "kNearest 0.2"})
+        n < 6 ? ShaderProgram::Build(
+                    {"frame.glsl", "hulls.vert.glsl"},
+                    {"frame.glsl", "sky.glsl", "depth.glsl", "before_sea.glsl", "hulls.frag.glsl"},
+                    {kKinds[n % 3][0], kKinds[n % 3][1], n < 3 ? "PLAIN 0" : "PLAIN 1",
+                     "kNearest 0.2"})
         : n == 6 ? ShaderProgram::Build({"frame.glsl", "attenuation.glsl", "hulls_water.vert.glsl"},
                                         {"hulls_water.frag.glsl"}, {"kHulls 1024"})
                  : ShaderProgram::Build({"fullscreen.vert.glsl"}, {"hulls_place.frag.glsl"});
@@ -234,12 +185,14 @@ void HullPass::Resize(int width, int height) {
   height_ = height;
   BindTexture(0, GL_TEXTURE_2D_MULTISAMPLE, picture_);
   glTexImage2DMultisample(GL_TEXTURE_2D_MULTISAMPLE, kSamples, GL_RGBA16F, width, height, GL_TRUE);
-  glBindRenderbuffer(GL_RENDERBUFFER, depth_.id());
-  glRenderbufferStorageMultisample(GL_RENDERBUFFER, kSamples, GL_DEPTH_COMPONENT32F, width, height);
+  BindTexture(0, GL_TEXTURE_2D_MULTISAMPLE, depth_);
+  glTexImage2DMultisample(GL_TEXTURE_2D_MULTISAMPLE, kSamples, GL_DEPTH_COMPONENT32F, width, height,
+                          GL_TRUE);
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D_MULTISAMPLE,
                          picture_.id(), 0);
-  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_.id());
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D_MULTISAMPLE,
+                         depth_.id(), 0);
   ONESEA_CHECK(glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE);
 }
 
@@ -342,12 +295,19 @@ HullMirror HullPass::DrawMirror(int width, int height, const SeaTextures& sea,
 }
 
 void HullPass::Draw(const VertexArray& empty, const ColorTarget& scene,
-                    const SurfaceGridPass& geometry, const SkyPass& sky) {
+                    const SurfaceGridPass& geometry, const SkyPass& sky,
+                    std::span<const PixelBox> depth_boxes) {
   if (boxes_.empty()) return;
   Resize(scene.width, scene.height);
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
   glViewport(0, 0, width_, height_);
   glEnable(GL_SCISSOR_TEST);
+  glDepthMask(GL_TRUE);
+  glClearDepth(1.0);
+  for (const PixelBox& box : depth_boxes) {
+    box.Scissor();
+    glClear(GL_DEPTH_BUFFER_BIT);
+  }
   PixelBox around = boxes_.front();
   for (const PixelBox& box : boxes_) {
     around = Union(around, box);

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <map>
+#include <span>
 #include <vector>
 
 #include "absl/status/statusor.h"
@@ -32,9 +33,13 @@ class HullPass {
   HullMirror DrawMirror(int width, int height, const SeaTextures& sea, const PatchTextures& patches,
                         const AttenuationTexture& attenuation, const SkyPass& sky);
 
-  /// After DrawMirror(): the hulls over the scene.
+  /// After DrawMirror(): the hulls over the scene. `depth_boxes`: where depth() shall hold, too.
   void Draw(const VertexArray& empty, const ColorTarget& scene, const SurfaceGridPass& geometry,
-            const SkyPass& sky);
+            const SkyPass& sky, std::span<const PixelBox> depth_boxes);
+
+  /// How far the hulls of the last Draw() are, of four samples a pixel: 0.5 - 0.5 kNearest / depth,
+  /// 1 where there is none; in the boxes of that call. Null: none was drawn.
+  const Texture* depth() const { return boxes_.empty() ? nullptr : &depth_; }
 
  private:
   // A mesh in one fineness.
@@ -76,8 +81,8 @@ class HullPass {
   std::vector<Visible> visible_;
   std::vector<PixelBox> boxes_;  // disjoint, around all that is in view
   PixelBox mirror_box_;
-  Texture picture_, water_map_, mirror_distance_;
-  Renderbuffer depth_, mirror_depth_;
+  Texture picture_, depth_, water_map_, mirror_distance_;
+  Renderbuffer mirror_depth_;
   Framebuffer framebuffer_, water_framebuffer_;
   ColorTarget mirror_picture_;
   VertexArray water_vertices_;

@@ -1,10 +1,5 @@
 // Painted hulls in sun and sky light, cut off where the sea stands before them.
 // With MIRROR, what is above the water as the water shows it, upside down.
-#if SAMPLES > 1
-uniform sampler2DMS surface_map;
-#else
-uniform sampler2D depth_map;
-#endif
 uniform sampler2D stain_map;
 in vec3 offset_eye;
 in vec3 facing;
@@ -18,34 +13,12 @@ layout(location = 0) out vec4 radiance;
 layout(location = 1) out float mirror_distance;  // to the water that shows this in its mirror [m]
 #endif
 
-// Share of the pixel that stands before the sea: hard at crests, soft along the waterline, where the
-// distance to the sea passes the hull's within a pixel or two.
-float before_sea(float distance) {
-  ivec2 pixel = ivec2(gl_FragCoord.xy);
-  // How much farther the flat sea is one pixel higher up.
-  float pixel_m = distance * ray_forward.w;
-  float soft = pixel_m * clamp(distance / max(abs(offset_eye.z), 0.3), 1.0, 40.0);
-#if SAMPLES > 1
-  float share = 0.0;
-  for (int n = 0; n < SAMPLES; ++n) {
-    vec4 s = texelFetch(surface_map, pixel, n);
-    float sea = s.w != 0.0 ? abs(s.z) : 1e6;  // or land
-    share += clamp(0.5 + (sea - distance) / soft, 0.0, 1.0);
-  }
-  return share / float(SAMPLES);
-#else
-  float there = texelFetch(depth_map, pixel, 0).r;
-  float sea = there < 1.0 ? depth_of(there) : 1e6;
-  return clamp(0.5 + (sea * distance / depth - distance) / soft, 0.0, 1.0);
-#endif
-}
-
 void main() {
   float distance = length(offset_eye);
 #if MIRROR
   float share = gloss_above.y > 0.0 ? 1.0 : 0.0;
 #else
-  float share = before_sea(distance);
+  float share = before_sea(distance, depth, offset_eye.z);
 #endif
   if (share <= 0.0) discard;
   vec3 direction = offset_eye / distance;
