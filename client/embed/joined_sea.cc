@@ -127,7 +127,7 @@ double JoinedSea::HeightAt(double x_m, double y_m, double time_s) const {
 
 double JoinedSea::WakesAt(Vec2d place, SimTime time) const {
   const std::shared_ptr<const WorldView> world = session_.world().view();
-  return WorldView::SampleAt(world->MomentAt(time), place).height_m;
+  return WakeHistory::SampleAt(world->wakes().MomentAt(time), place).height_m;
 }
 
 absl::Status JoinedSea::Sample(std::span<const Place> places, double time_s, Detail detail,
@@ -143,12 +143,12 @@ absl::Status JoinedSea::Sample(std::span<const Place> places, double time_s, Det
   const std::vector<Vec2d> points = Points(places);
   const std::shared_ptr<const sea::Terrain> terrain = sea.terrain();
   const std::shared_ptr<const WorldView> world = session_.world().view();
-  const WorldView::Moment wakes = world->MomentAt(time);
+  const WakeHistory::Moment wakes = world->wakes().MomentAt(time);
   std::vector<sea::SurfaceSample> samples(places.size());
   std::uint32_t layers = sea.Sample(points, time, static_cast<sea::QueryDetail>(detail), samples);
   if (wakes) layers |= kLayerWakes;
   for (std::size_t n = 0; n < samples.size(); ++n) {
-    out[n] = WaterOf(samples[n], WorldView::SampleAt(wakes, points[n]), detail);
+    out[n] = WaterOf(samples[n], WakeHistory::SampleAt(wakes, points[n]), detail);
     out[n].layers = layers;
     out[n].dry = terrain != nullptr && terrain->IsDry(points[n], out[n].height_m);
   }
@@ -178,11 +178,11 @@ absl::Status JoinedSea::SampleAtDepth(std::span<const Place> places,
   sea.SampleAtDepth(points, depth_m, time, samples);
   const std::shared_ptr<const sea::Terrain> terrain = sea.terrain();
   const std::shared_ptr<const WorldView> world = session_.world().view();
-  const WorldView::Moment wakes = world->MomentAt(time);
+  const WakeHistory::Moment wakes = world->wakes().MomentAt(time);
   for (std::size_t n = 0; n < points.size(); ++n) {
     out[n] = {};
     const double height_m =
-        surface[n].height_m + static_cast<float>(WorldView::SampleAt(wakes, points[n]).height_m);
+        surface[n].height_m + static_cast<float>(WakeHistory::SampleAt(wakes, points[n]).height_m);
     out[n].dry =
         -depth_m[n] > height_m || (terrain != nullptr && terrain->IsDry(points[n], height_m));
     if (out[n].dry) continue;
@@ -198,7 +198,7 @@ double JoinedSea::HeightErrorBound(double time_s) const {
   if (sea == nullptr || !IsTime(time_s)) return kNan;
   const SimTime time = SimTime::FromSeconds(time_s);
   return sea->SnapshotAt(time, sea::QueryDetail::kHeight)->HeightErrorBound() +
-         session_.world().view()->MomentAt(time).height_error_m;
+         session_.world().view()->wakes().MomentAt(time).height_error_m;
 }
 
 DriftReport JoinedSea::drift() const {

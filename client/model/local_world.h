@@ -9,8 +9,8 @@
 #include "absl/base/thread_annotations.h"
 #include "absl/status/status.h"
 #include "absl/synchronization/mutex.h"
+#include "client/model/wake_history.h"
 #include "common/base/sim_time.h"
-#include "common/base/vec.h"
 #include "common/sea/interaction_field.h"
 #include "common/wire/body_table.h"
 #include "common/wire/frame.h"
@@ -22,30 +22,13 @@ namespace onesea::client {
 /// renderer takes one per picture.
 class WorldView {
  public:
-  /// Nothing is known of the time after the last update: the layer stands still for so long, then
-  /// it fades away within as much again.
-  static constexpr double kStandsS = wire::BodyTable::kExtrapolationMaxS;
-
-  /// The interaction layer at some time, linear between the updates that are kept; points into the
-  /// view.
-  struct Moment {
-    const sea::InteractionSnapshot* before = nullptr;  ///< null: nothing is known, or there is none
-    const sea::InteractionSnapshot* after = nullptr;   ///< may be the same
-    double share = 0.0;                                ///< of the way from one to the other, [0, 1]
-    double strength = 1.0;                             ///< less than 1: fading
-    /// Bound [m] of |height - the server's| at the time of an update, in regions that come with
-    /// every frame; waves of ω add (ω span)²/8 of themselves in the middle of two.
-    double height_error_m = 0.0;
-    explicit operator bool() const { return before != nullptr; }
-  };
-  Moment MomentAt(SimTime time) const;
-  /// At a place, to be added to the spectral sea. Velocities are not streamed: 0.
-  static sea::InteractionSample SampleAt(const Moment& moment, Vec2d place);
+  /// The interaction layer, of some time.
+  const WakeHistory& wakes() const { return wakes_; }
 
   /// Heights and foam of the last update; for renderers that make textures of them.
-  const sea::InteractionSnapshot& interaction() const { return *layers_.back().snapshot; }
+  const sea::InteractionSnapshot& interaction() const { return *wakes_.newest(); }
   std::shared_ptr<const sea::InteractionSnapshot> shared_interaction() const {
-    return layers_.back().snapshot;
+    return wakes_.newest();
   }
   /// One's place and motion at a time: Body::At. Ascending by id.
   std::span<const wire::BodyTable::Body> bodies() const { return bodies_.bodies(); }
@@ -53,17 +36,11 @@ class WorldView {
   double water_level_m() const { return water_level_m_; }
   /// Ids ascending. Ends may be on bodies that aren't there: see RopesAt().
   std::span<const wire::TiedRope> ropes() const { return *ropes_; }
-  SimTime time() const { return layers_.back().time; }  ///< of the last update
+  SimTime time() const { return wakes_.time(); }  ///< of the last update
 
  private:
   friend class LocalWorld;
-  struct Layer {
-    SimTime time;
-    std::shared_ptr<const sea::InteractionSnapshot> snapshot;
-    double height_error_m = 0.0;
-  };
-  // Of every update that is kept, ascending times; never empty.
-  std::vector<Layer> layers_ = {{{}, std::make_shared<const sea::InteractionSnapshot>(), 0.0}};
+  WakeHistory wakes_;
   wire::BodyTable bodies_;
   double water_level_m_ = 0.0;
   wire::RopeList ropes_ = std::make_shared<const std::vector<wire::TiedRope>>();
@@ -74,8 +51,8 @@ class WorldView {
 /// Thread-safe: the network thread applies, render and game threads ask.
 class LocalWorld {
  public:
-  /// Keeps the interaction layer of the last `past` of sea time (4 bytes a cell and update, 8 with
-  /// foam), and the last two updates at least.
+  /// Keeps the interaction layer of the last `past` of sea time (8 bytes a cell and update), and
+  /// the last two updates at least.
   explicit LocalWorld(SimTime past = {}) : past_(past) {}
 
   /// Frames must come in order. A keyframe replaces everything, and without a world it empties
@@ -94,7 +71,6 @@ class LocalWorld {
  private:
   absl::Status ApplyWorld(const wire::WorldUpdate& update, bool keyframe, int tick_rate_hz)
       ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
-  void AddLayer(WorldView::Layer layer, WorldView& view) const;
   void AddSpray(const std::vector<wire::Spray>& spray) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
 
   const SimTime past_;

@@ -81,7 +81,7 @@ class FakeWorld {
 };
 
 double HeightAt(const WorldView& view, Vec2d place, SimTime time) {
-  return WorldView::SampleAt(view.MomentAt(time), place).height_m;
+  return WakeHistory::SampleAt(view.wakes().MomentAt(time), place).height_m;
 }
 
 TEST(LocalWorld, FollowsFramesFromAKeyframeOn) {
@@ -122,14 +122,14 @@ TEST(LocalWorld, HeightsAreSmoothBetweenFramesAndZeroOutside) {
   EXPECT_NEAR(HeightAt(*view, place, middle), 0.5 * (a + b), 1e-9);
   EXPECT_EQ(HeightAt(*view, {-18.0, 4.0}, second), 0.0);
   EXPECT_EQ(HeightAt(*view, {1e300, -1e300}, second), 0.0);
-  EXPECT_GT(WorldView::SampleAt(view->MomentAt(second), {20.0, 10.0}).foam, 0.0);
+  EXPECT_GT(WakeHistory::SampleAt(view->wakes().MomentAt(second), {20.0, 10.0}).foam, 0.0);
 }
 
 // After the last update the layer stands, then fades; before the first nothing is known.
 TEST(LocalWorld, HeightsFadeWhenNoNewsCome) {
   FakeWorld server;
   LocalWorld world;
-  EXPECT_FALSE(world.view()->MomentAt({}));
+  EXPECT_FALSE(world.view()->wakes().MomentAt({}));
   server.Next();
   ASSERT_TRUE(world.Apply(server.Keyframe(), kTickRateHz).ok());
   const auto view = world.view();
@@ -137,11 +137,11 @@ TEST(LocalWorld, HeightsFadeWhenNoNewsCome) {
   const double height_m = HeightAt(*view, place, server.time());
   const auto later = [&](double seconds) { return server.time() + SimTime::FromSeconds(seconds); };
   ASSERT_GT(height_m, 0.01);
-  EXPECT_EQ(HeightAt(*view, place, later(0.99 * WorldView::kStandsS)), height_m);
-  EXPECT_NEAR(HeightAt(*view, place, later(1.75 * WorldView::kStandsS)), 0.25 * height_m, 1e-9);
-  EXPECT_TRUE(view->MomentAt(later(1.99 * WorldView::kStandsS)));
-  EXPECT_FALSE(view->MomentAt(later(2.0 * WorldView::kStandsS)));
-  EXPECT_FALSE(view->MomentAt(later(-0.001)));
+  EXPECT_EQ(HeightAt(*view, place, later(0.99 * WakeHistory::kStandsS)), height_m);
+  EXPECT_NEAR(HeightAt(*view, place, later(1.75 * WakeHistory::kStandsS)), 0.25 * height_m, 1e-9);
+  EXPECT_TRUE(view->wakes().MomentAt(later(1.99 * WakeHistory::kStandsS)));
+  EXPECT_FALSE(view->wakes().MomentAt(later(2.0 * WakeHistory::kStandsS)));
+  EXPECT_FALSE(view->wakes().MomentAt(later(-0.001)));
   EXPECT_EQ(HeightAt(*view, place, later(-0.001)), 0.0);
 }
 
@@ -167,13 +167,13 @@ TEST(LocalWorld, KeepsThePastThatItIsToldToKeep) {
                 FakeWorld::Height(place, earlier(age_s).Seconds()), 1e-3 * 25.0 / 16.0)
         << age_s;
   }
-  EXPECT_FALSE(keeper.view()->MomentAt(earlier(0.6)));
-  EXPECT_TRUE(forgetful.view()->MomentAt(earlier(0.02)));
-  EXPECT_FALSE(forgetful.view()->MomentAt(earlier(0.04)));
+  EXPECT_FALSE(keeper.view()->wakes().MomentAt(earlier(0.6)));
+  EXPECT_TRUE(forgetful.view()->wakes().MomentAt(earlier(0.02)));
+  EXPECT_FALSE(forgetful.view()->wakes().MomentAt(earlier(0.04)));
   // One region in steps of a millimetre.
-  EXPECT_EQ(keeper.view()->MomentAt(server.time()).height_error_m, 1e-3 * 25.0 / 16.0);
+  EXPECT_EQ(keeper.view()->wakes().MomentAt(server.time()).height_error_m, 1e-3 * 25.0 / 16.0);
   ASSERT_TRUE(keeper.Apply(server.Keyframe(), kTickRateHz).ok());
-  EXPECT_FALSE(keeper.view()->MomentAt(earlier(0.01)));
+  EXPECT_FALSE(keeper.view()->wakes().MomentAt(earlier(0.01)));
 }
 
 TEST(LocalWorld, AViewStaysAsItWas) {

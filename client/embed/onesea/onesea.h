@@ -113,14 +113,16 @@ class Sea {
   /// Height of the surface [m] now. NaN for a place that isn't finite or farther than 1e7 m, after
   /// status() failed, and while a terrain that the session changed to is still on its way. Waves
   /// are interpolated linearly between moments 1/60 s apart: 0.35 mm at an acceleration of 1 g;
-  /// wakes are as in the last news. Cost: some µs, and one synthesis (about 1 ms at the default
-  /// resolution) per 1/60 s of sea time. For many places at once Sample() is far cheaper a place.
+  /// wakes go on from the last news for two frames. Cost: some µs, and one synthesis (about 1 ms
+  /// at the default resolution) per 1/60 s of sea time. For many places at once Sample() is far
+  /// cheaper a place.
   virtual double HeightAt(double x_m, double y_m) const = 0;
 
   /// The same at sea time `time_s`, past or future, within 3.2e9 s of tick 0, waves not
   /// interpolated in time. A first call for a time costs one synthesis; the last few times are
-  /// kept. Wakes are known of the last second: linear in time between news; after the last news
-  /// they stand still for 1.5 s of sea time and fade within as much again. Other moments have none.
+  /// kept. Wakes are known of the last second: linear in time between news; from the last news they
+  /// go on for at most 0.1 s, stand until they are 1.5 s old (of sea time), and fade within as much
+  /// again. Other moments have none.
   virtual double HeightAt(double x_m, double y_m, double time_s) const = 0;
 
   /// out[n] answers places[n] at `time_s`. InvalidArgument naming the place or time that is out of
@@ -137,8 +139,8 @@ class Sea {
   /// Bound [m] of the error of heights at `time_s`, where the waves do not fold: of the waves
   /// against their exact sum (the server's answer has the same error), and of wakes, if they are
   /// in, against the server's at a moment that news tell of. Between news 1/30 s apart wakes of
-  /// period T are off by (0.07 s / T)² more of themselves; from the last news to now by what they
-  /// rise meanwhile.
+  /// period T are off by (0.07 s / T)² more of themselves; now, some 20 ms after the last news, by
+  /// a percent of themselves (docs/embedding.md).
   virtual double HeightErrorBound(double time_s) const = 0;
 
   /// All bodies now, ascending by id; between news on smooth curves, after them by their velocities
