@@ -126,7 +126,7 @@ const std::vector<ForbiddenArrow>& ForbiddenArrows() {
        "a robot needs no display"},
       {{"client/net/"}, "^(client/render/|epoxy/|GL/)", {}, "a robot needs no display"},
       {{"client/embed/onesea/"},
-       "/(?!status\\.h$|statusor\\.h$|bodies\\.h$)",
+       "^(?!absl/status/status(or)?\\.h$|onesea/bodies\\.h$).*/",
        {},
        "a game sees the standard library and absl::Status, nothing of what is behind"},
       {{""},
