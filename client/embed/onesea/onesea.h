@@ -23,8 +23,8 @@
 /// CMake: find_package(onesea REQUIRED) and target_link_libraries(game PRIVATE onesea::client).
 ///
 /// Heights are the server's: the waves, lowered over the session's terrain if it has one, the water
-/// level (tide), and the wakes and splashes of bodies, which come as a stream of some kilobytes a
-/// second. Water::layers says what is in a height. Bodies are in bodies.h:
+/// level (tide), and the wakes and splashes of bodies, which come as a stream of some tens of
+/// kilobytes a second. Water::layers says what is in a height. Bodies are in bodies.h:
 ///
 ///   auto boat = (*sea)->Spawn({.preset = "boat", .x_m = 20.0});
 ///   (*boat)->Drive(0.8, 0.0);
@@ -35,7 +35,7 @@ namespace onesea {
 
 struct JoinOptions {
   std::string session = {};      ///< empty: the server's only session
-  std::string client_name = {};  ///< for the server's logs
+  std::string client_name = {};  ///< for the server's logs, and the owner of your bodies
   double timeout_s = 10.0;       ///< of Join(), (0, 3600]; afterwards reconnection goes on for ever
   bool world = true;             ///< false: neither wakes nor bodies, for a few bytes a second
   /// Called with a line for people when the connection is lost or found again, the weather changes,
