@@ -39,8 +39,8 @@ Bounds BoundsOf(const render::HullMesh& mesh) {
 // are told from anybody's "boat" by their name and by where their origin is: amidships on the keel.
 bool IsPresetBoat(const std::string& name, const Bounds& hull) {
   constexpr double kNearM = 1e-3;
-  return (name == "boat" || name == "work-boat" || name == "motor-boat") &&
-         std::abs(hull.low_m.z) < kNearM && std::abs(hull.low_m.x + hull.high_m.x) < kNearM &&
+  return absl::StrContains(name, "boat") && std::abs(hull.low_m.z) < kNearM &&
+         std::abs(hull.low_m.x + hull.high_m.x) < kNearM &&
          std::abs(hull.low_m.y + hull.high_m.y) < kNearM;
 }
 

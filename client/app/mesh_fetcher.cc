@@ -4,12 +4,14 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
 #include "absl/time/time.h"
 #include "common/base/check.h"
 #include "common/base/clock.h"
 #include "common/base/limits.h"
 #include "common/ingest/mesh_file.h"
 #include "common/wire/body_description.h"
+#include "common/wire/bounds.h"
 
 namespace onesea::client {
 
@@ -29,6 +31,14 @@ absl::StatusOr<render::SharedHullMesh> MeshOfFile(const std::string& file, std::
   return render::PlainModel(mesh.vertices, mesh.triangles);
 }
 
+namespace {
+
+std::string_view Text(const absl::Status& status) {
+  return {status.message().data(), status.message().size()};
+}
+
+}  // namespace
+
 MeshFetcher::MeshFetcher(Fetch fetch) : fetch_(std::move(fetch)), thread_([this] { Run(); }) {}
 
 MeshFetcher::~MeshFetcher() {
@@ -46,7 +56,10 @@ render::SharedHullMesh MeshFetcher::Find(std::uint64_t hash) {
 
 std::string MeshFetcher::trouble() const {
   absl::MutexLock lock(&mutex_);
-  return trouble_;
+  for (const auto& [hash, entry] : entries_) {
+    if (!entry.trouble.empty()) return entry.trouble;
+  }
+  return "";
 }
 
 std::optional<std::uint64_t> MeshFetcher::Next() const {
@@ -76,11 +89,10 @@ void MeshFetcher::Run() {
     // What came is final, whatever it is; what didn't come may yet.
     entry.wanted = !file.ok();
     entry.not_before_ns = SystemClock().MonotonicNs() + kPauseNs;
-    if (mesh.ok()) {
-      entry.mesh = *mesh;
-    } else {
-      trouble_ = std::string(mesh.status().message());
-    }
+    if (mesh.ok()) entry.mesh = *mesh;
+    entry.trouble = mesh.ok() ? ""
+                              : absl::StrFormat("the hull %016x can't be drawn: %s", *hash,
+                                                wire::Printable(Text(mesh.status()), 200));
   }
 }
 

@@ -28,7 +28,8 @@ class MeshFetcher {
   /// Null until it is there. A file that isn't what its hash says or can't be read stays null; one
   /// that didn't come is asked for again after kPauseNs. Thread-safe.
   render::SharedHullMesh Find(std::uint64_t hash);
-  /// Why the last file failed; empty: none did.
+  /// Why a hull that was asked for isn't drawn, for people; empty: all are there or under way. Gone
+  /// when the file comes after all.
   std::string trouble() const;
 
   static constexpr std::int64_t kPauseNs = 3'000'000'000;
@@ -38,6 +39,7 @@ class MeshFetcher {
     render::SharedHullMesh mesh;
     bool wanted = true;
     std::int64_t not_before_ns = 0;
+    std::string trouble;
   };
   void Run();
   std::optional<std::uint64_t> Next() const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
@@ -46,7 +48,6 @@ class MeshFetcher {
   mutable absl::Mutex mutex_;
   bool stopping_ ABSL_GUARDED_BY(mutex_) = false;
   std::map<std::uint64_t, Entry> entries_ ABSL_GUARDED_BY(mutex_);
-  std::string trouble_ ABSL_GUARDED_BY(mutex_);
   std::thread thread_;
 };
 

@@ -14,6 +14,11 @@ constexpr double kMPerSInAKnot = 1852.0 / 3600.0;
 void ShowSource(const SourceReport& report, double frames_per_second) {
   ImGui::TextWrapped("%s", report.where.c_str());
   ImGui::Text("link       %s", report.link.c_str());
+  if (!report.trouble.empty()) {
+    ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(1.0f, 0.6f, 0.3f, 1.0f));
+    ImGui::TextWrapped("%s", report.trouble.c_str());
+    ImGui::PopStyleColor();
+  }
   ImGui::Text("tick       %lld  (speed %.2f)", static_cast<long long>(report.tick), report.speed);
   if (report.drift_m >= 0) {
     ImGui::Text("drift      %.3g mm", 1000.0 * report.drift_m);

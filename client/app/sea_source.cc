@@ -91,6 +91,7 @@ class ServerSource : public SeaSource {
     report.speed = now.speed;
     report.clock_error_s = now.error_bound_s;
     report.link = LinkText(joined_.link());
+    report.trouble = meshes_.trouble();
     const LocalSea* const sea = joined_.sea();
     if (sea == nullptr) return report;
     // Until then the open sea is drawn.

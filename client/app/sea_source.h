@@ -21,6 +21,7 @@ struct SourceReport {
   std::int64_t tick = 0;
   double speed = 1.0;
   double drift_m = -1.0;      ///< worst probe of the last comparison; negative: none yet
+  std::string trouble;        ///< what can't be drawn, and why; empty: nothing
   double clock_error_s = -1;  ///< bound of the server clock's estimate; negative: own clock
 };
 

@@ -79,6 +79,7 @@ class Scene {
     frame_.camera = cockpit.At(builder_.HeightAt(cockpit.place()));
     ApplySettings(settings, frame_);
     renderer_->Draw(frame_, width, height, framebuffer);
+    TellTrouble(source.meshes());
   }
 
   void DrawPanel(SeaSource& source, const HelmReport& helm, int width, int height, double seconds,
@@ -105,12 +106,21 @@ class Scene {
     frame_.quality.samples = options.samples;
   }
 
+  // Once each, for those who have no panel.
+  void TellTrouble(const MeshFetcher* meshes) {
+    const std::string trouble = meshes != nullptr ? meshes->trouble() : "";
+    if (trouble == trouble_) return;
+    trouble_ = trouble;
+    if (!trouble.empty()) std::fprintf(stderr, "onesea-view: %s\n", trouble.c_str());
+  }
+
   std::unique_ptr<render::Renderer> renderer_;
   Panel panel_;
   FrameBuilder builder_;
   BodyModels models_;
   SprayBursts spray_;
   render::RenderFrame frame_;
+  std::string trouble_;
 };
 
 void ApplyKeys(const WindowInput& input, double seconds, ViewSettings& settings, Cockpit& cockpit) {

@@ -51,10 +51,25 @@ TEST(MeshFetcherTest, BadFilesAreRefusedAndNotAskedForAgain) {
   });
   fetcher.Find(wire::MeshHash("f 1 2 9"));
   ASSERT_TRUE(Within(10.0, [&] { return !fetcher.trouble().empty(); }));
+  EXPECT_NE(fetcher.trouble().find("the hull "), std::string::npos) << fetcher.trouble();
   fetcher.Find(7);
   ASSERT_TRUE(Within(10.0, [&] { return calls == 2; }));
   EXPECT_EQ(fetcher.Find(wire::MeshHash("f 1 2 9")), nullptr);
   EXPECT_EQ(fetcher.Find(7), nullptr);
+}
+
+TEST(MeshFetcherTest, TroubleIsOverWhenTheFileComes) {
+  std::atomic<int> calls = 0;
+  MeshFetcher fetcher([&](std::uint64_t) -> absl::StatusOr<std::string> {
+    if (++calls == 1) return absl::UnavailableError("nobody answers");
+    return std::string(kTetrahedron);
+  });
+  const std::uint64_t hash = wire::MeshHash(kTetrahedron);
+  fetcher.Find(hash);
+  ASSERT_TRUE(Within(10.0, [&] { return !fetcher.trouble().empty(); }));
+  EXPECT_NE(fetcher.trouble().find("nobody answers"), std::string::npos);
+  ASSERT_TRUE(Within(30.0, [&] { return fetcher.Find(hash) != nullptr; }));
+  EXPECT_EQ(fetcher.trouble(), "");
 }
 
 TEST(MeshOfFileTest, NamesWhatIsWrong) {

@@ -82,6 +82,7 @@ class Boat:
     def leave_a_wake(self):
         request = self.command_pb2.AddRegionRequest(command=self._command())
         request.region.follow_body_id = self.id
+        request.region.rest_after_s = 60  # who leaves gives it back
         self.stub.AddRegion(request, timeout=10)
 
     def motions(self, ticks_per_reading):
