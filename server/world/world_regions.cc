@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "common/base/check.h"
 #include "common/base/limits.h"
 #include "server/world/world.h"
 
@@ -79,6 +80,23 @@ void World::WakeRegions() {
   }
 }
 
+RegionAsk World::AskFor(std::uint32_t id, const wire::RegionSpec& spec) const {
+  RegionAsk ask{.id = id,
+                .kind = static_cast<SolverKind>(spec.solver),
+                .cell_m = spec.cell_m,
+                .columns = spec.columns,
+                .rows = spec.rows,
+                .centre_m = spec.middle_m,
+                .damping_per_s = spec.damping_per_s,
+                .traits = {.height_step_m = spec.height_step_m,
+                           .frames_per_update = spec.frames_per_update,
+                           .rain_drops_per_m2_s = spec.rain_drops_per_m2_s}};
+  if (const BodyState* body = rigid_.FindState(spec.follow_body_id); body != nullptr) {
+    ask.centre_m = {body->pose.centre_m.x, body->pose.centre_m.y};
+  }
+  return ask;
+}
+
 absl::Status World::PlaceRegions() {
   std::vector<std::pair<Tick, std::uint32_t>> awake;  // who came first is first
   for (const auto& [id, region] : regions_) {
@@ -88,21 +106,7 @@ absl::Status World::PlaceRegions() {
   if (awake.size() > kRegionsMax) awake.resize(kRegionsMax);
   std::vector<RegionAsk> asks;
   for (const auto& [since, id] : awake) {
-    const wire::RegionSpec& spec = regions_[id].spec;
-    RegionAsk ask{.id = id,
-                  .kind = static_cast<SolverKind>(spec.solver),
-                  .cell_m = spec.cell_m,
-                  .columns = spec.columns,
-                  .rows = spec.rows,
-                  .centre_m = spec.middle_m,
-                  .damping_per_s = spec.damping_per_s,
-                  .traits = {.height_step_m = spec.height_step_m,
-                             .frames_per_update = spec.frames_per_update,
-                             .rain_drops_per_m2_s = spec.rain_drops_per_m2_s}};
-    if (const BodyState* body = rigid_.FindState(spec.follow_body_id); body != nullptr) {
-      ask.centre_m = {body->pose.centre_m.x, body->pose.centre_m.y};
-    }
-    asks.push_back(ask);
+    asks.push_back(AskFor(id, regions_[id].spec));
   }
   return layer_.Place(asks);
 }
@@ -115,11 +119,13 @@ absl::StatusOr<std::uint32_t> World::Do(const wire::AddRegion& command) {
     ++awake;
     cells += std::int64_t{region.spec.columns} * region.spec.rows;
   }
-  if (awake >= kRegionsMax || regions_.size() >= kRegionAsksMax) {
+  // One that others may have for a while can wait for its turn; who asks for good is told.
+  const bool waits = command.region.follow_body_id != 0 && command.region.rest_after_s > 0.0;
+  if ((awake >= kRegionsMax && !waits) || regions_.size() >= kRegionAsksMax) {
     return absl::ResourceExhaustedError(
         absl::StrCat("the session has ", kRegionsMax, " regions, the most there can be"));
   }
-  if (cells > kRegionCellsMax) {
+  if (cells > kRegionCellsMax && !waits) {
     return absl::ResourceExhaustedError(absl::StrCat("region: with it the session would have ",
                                                      cells, " cells, the limit is ",
                                                      kRegionCellsMax));
@@ -129,6 +135,7 @@ absl::StatusOr<std::uint32_t> World::Do(const wire::AddRegion& command) {
     return absl::NotFoundError(absl::StrCat("body_id: there is no body ", follows));
   }
   const std::uint32_t id = next_region_id_;
+  ONESEA_RETURN_IF_ERROR(ValidateRegionAsk(AskFor(id, command.region)));
   regions_[id] = {.spec = command.region, .since_tick = tick_};
   if (follows != 0) bodies_[follows].active_tick = tick_;
   if (absl::Status placed = PlaceRegions(); !placed.ok()) {

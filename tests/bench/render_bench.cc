@@ -26,6 +26,7 @@
 ABSL_FLAG(int, frames, 12, "Pictures per size; the first is left out");
 ABSL_FLAG(bool, harbour, false, "With two wakes, new in each picture, and eight bodies");
 ABSL_FLAG(int, bodies, 0, "With --harbour: as many more bodies, 20 to 300 m away");
+ABSL_FLAG(int, ropes, 0, "With --harbour: as many ropes of ten metres from body to body");
 ABSL_FLAG(bool, shore, false, "Before an island, with the sea lower over its shelf");
 ABSL_FLAG(int, samples, 0, "Samples of the geometry: 1, 4 or 0, as the driver can afford");
 
@@ -132,6 +133,11 @@ int Main(int frames) {
       body.position_m.x = range * std::cos(bearing);
       body.position_m.y = range * std::sin(bearing);
       frame.hulls.push_back(body);
+    }
+    for (int n = 0; n < absl::GetFlag(FLAGS_ropes); ++n) {
+      const Vec3d from = frame.hulls[static_cast<std::size_t>(n) % frame.hulls.size()].position_m;
+      frame.ropes.push_back(
+          {from + Vec3d{0, 0, 2}, from + Vec3d{6, n % 2 == 0 ? 7.0 : -7.0, 2}, 10});
     }
   }
   if (absl::GetFlag(FLAGS_shore)) AddShore(frame);

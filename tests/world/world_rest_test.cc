@@ -130,6 +130,31 @@ TEST_F(WorldTest, ThoseWhoCameAndWentLeaveRoom) {
   EXPECT_TRUE(covers(last));
 }
 
+// Whoever comes when all are taken waits for the first that is given back.
+TEST_F(WorldTest, TheSeventeenthBoatWaitsForItsRegion) {
+  for (int n = 0; n < 17; ++n) {
+    const std::uint32_t boat = Spawn(Boat(), {100.0 * n, 0});
+    ASSERT_TRUE(world_.Apply(wire::DriveBody{boat, {0.01}, {0.0}}).ok());
+    AddRegion(Following(boat));
+  }
+  Run(1);
+  EXPECT_EQ(Regions(world_), static_cast<std::size_t>(kRegionsMax));
+  EXPECT_EQ(HeightAt({1600, 0}), 0.0);
+  Run(60);
+  EXPECT_EQ(HeightAt({1600, 0}), 0.0);
+  EXPECT_NE(HeightAt({800, 0}), 0.0);
+  ASSERT_TRUE(world_.Apply(wire::DriveBody{9, {0.0}, {0.0}}).ok());  // the one there
+  Run(kTicks + 1);
+  EXPECT_EQ(Regions(world_), static_cast<std::size_t>(kRegionsMax));
+  Run(60);
+  EXPECT_NE(HeightAt({1600, 0}), 0.0);
+  EXPECT_EQ(HeightAt({800, 0}), 0.0);
+  // A place in the world where no region fits is refused at once, room or not.
+  const std::uint32_t far = Spawn(Boat(), {9.99999e6, 0});
+  EXPECT_EQ(world_.Apply(wire::AddRegion{Following(far)}).status().code(),
+            absl::StatusCode::kInvalidArgument);
+}
+
 TEST_F(WorldTest, ARemovedBoatsRegionGoesToo) {
   const std::uint32_t boat = Spawn(Boat());
   AddRegion(Following(boat));
