@@ -29,19 +29,23 @@ absl::Status RunSpawn(const CliContext& context, const Arguments& arguments) {
   ONESEA_ASSIGN_OR_RETURN(const ChosenSession chosen, ChooseSession(context));
   ONESEA_ASSIGN_OR_RETURN(const client::CommandAnswer answer,
                           chosen.server->Command(HeaderFor(chosen.info, arguments), spawn));
+  if (!arguments.Has("keep")) {
+    wire::CommandHeader header = HeaderFor(chosen.info, arguments);
+    header.lease = answer.lease;
+    ONESEA_RETURN_IF_ERROR(chosen.server->Command(header, wire::ReleaseLease{answer.id}).status());
+  }
   if (!arguments.Has("no-wake")) {
     wire::RegionSpec region;
     region.middle_m = place;
     region.follow_body_id = answer.id;
     region.rest_after_s = wire::kRestAfterS;
-    ONESEA_RETURN_IF_ERROR(
-        chosen.server->Command(HeaderFor(chosen.info, arguments), wire::AddRegion{region})
-            .status());
-  }
-  if (!arguments.Has("keep")) {
-    wire::CommandHeader header = HeaderFor(chosen.info, arguments);
-    header.lease = answer.lease;
-    ONESEA_RETURN_IF_ERROR(chosen.server->Command(header, wire::ReleaseLease{answer.id}).status());
+    const absl::Status added =
+        chosen.server->Command(HeaderFor(chosen.info, arguments), wire::AddRegion{region}).status();
+    if (!added.ok()) {
+      return absl::Status(
+          added.code(),
+          absl::StrCat("body ", answer.id, " is afloat, without wake: ", added.message()));
+    }
   }
   PrintDone(context, chosen.info, answer,
             arguments.Has("keep") ? absl::StrCat("body ", answer.id, ", lease ", answer.lease, ",")

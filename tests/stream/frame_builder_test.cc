@@ -72,27 +72,63 @@ TEST(FrameBuilder, EveryFrameViewersAreToldEveryStreamedTick) {
   EXPECT_EQ(builder.newest_sequence(), kTickRateHz);
 }
 
+// One body.
+std::shared_ptr<world::WorldView> SmallWorld(Tick tick) {
+  auto world = std::make_shared<world::WorldView>();
+  world->tick = tick;
+  world->interaction = std::make_shared<const sea::InteractionSnapshot>();
+  world->past = std::make_shared<const sea::InteractionPast>();
+  world->bodies.resize(1);
+  world->bodies[0].state.id = 1;
+  auto info = std::make_shared<wire::BodyInfo>();
+  info->id = 1;
+  info->mass_kg = 1.0;
+  world->bodies[0].info = info;
+  return world;
+}
+
+TickEvent EventOf(std::shared_ptr<const world::WorldView> world) {
+  TickEvent event;
+  event.stamp = {.tick = world->tick,
+                 .server_monotonic_ns = world->tick * kSecond / kTickRateHz,
+                 .speed = 1.0};
+  event.stream_instant = world->tick % 2 == 0;
+  event.world = std::move(world);
+  return event;
+}
+
+// Tied between two frames and gone after a while: each told in one frame, and to newcomers between.
+TEST(FrameBuilder, RopesAreToldWhenTheyChange) {
+  FrameBuilder builder(Audience::kEveryFrame);
+  builder.OnWelcome(SampleWelcome());
+  const auto ropes = std::make_shared<const std::vector<wire::TiedRope>>(
+      std::vector<wire::TiedRope>{{2, {{1, {}}, {0, {9, 0, 0}}}}});
+  std::vector<int> told;  // by frame; -1: nothing said
+  for (Tick tick = 1; tick <= 20; ++tick) {
+    const auto world = SmallWorld(tick);
+    if (tick >= 5 && tick < 13) world->ropes = ropes;
+    if (!builder.OnTick(EventOf(world), true)) continue;
+    const wire::RopeList list = Decode(builder.newest()).world->ropes;
+    told.push_back(list == nullptr ? -1 : static_cast<int>(list->size()));
+    const wire::RopeList joiners = Decode(builder.Keyframe()).world->ropes;
+    if (tick >= 5 && tick < 13) {
+      ASSERT_NE(joiners, nullptr) << tick;
+      EXPECT_EQ(*joiners, *ropes);
+    } else {
+      EXPECT_EQ(joiners, nullptr) << tick;
+    }
+  }
+  EXPECT_EQ(told, (std::vector<int>{-1, -1, 1, -1, -1, -1, 0, -1, -1, -1}));
+}
+
 // Frames come with every second tick; what is thrown up in the others is told too, once.
 TEST(FrameBuilder, SprayOfEachTickIsToldOnce) {
   FrameBuilder builder(Audience::kEveryFrame);
   builder.OnWelcome(SampleWelcome());
   const auto step = [&](Tick tick, std::size_t events, bool watched) {
-    auto world = std::make_shared<world::WorldView>();
-    world->tick = tick;
-    world->interaction = std::make_shared<const sea::InteractionSnapshot>();
-    world->past = std::make_shared<const sea::InteractionPast>();
-    world->bodies.resize(1);
-    world->bodies[0].state.id = 1;
-    auto info = std::make_shared<wire::BodyInfo>();
-    info->id = 1;
-    info->mass_kg = 1.0;
-    world->bodies[0].info = info;
+    const auto world = SmallWorld(tick);
     world->spray.assign(events, {{1, 2, 3}, {0, 0, 4}, static_cast<double>(tick)});
-    TickEvent event;
-    event.stamp = {.tick = tick, .server_monotonic_ns = tick * kSecond / kTickRateHz, .speed = 1.0};
-    event.stream_instant = tick % 2 == 0;
-    event.world = world;
-    const bool told = builder.OnTick(event, watched);
+    const bool told = builder.OnTick(EventOf(world), watched);
     return told ? Decode(builder.newest()).world->spray : std::vector<wire::Spray>{};
   };
   step(1, 5, false);  // nobody saw it, nobody will
