@@ -73,7 +73,7 @@ double ApartM(const client::BodyList& list, const wire::RopeSpec& rope) {
 
 // As --from and --to take it, and the body's name.
 std::string EndText(const client::BodyList& list, const wire::RopeEnd& end) {
-  const std::string point =
+  std::string point =
       absl::StrFormat("%.6g,%.6g,%.6g", end.point_m.x, end.point_m.y, end.point_m.z);
   if (end.body_id == 0) return point;
   const client::ListedBody* body = FindBody(list, end.body_id);
