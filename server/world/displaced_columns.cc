@@ -76,7 +76,8 @@ class Spreader {
     if (!(column >= 1.0 && column < cells_.columns - 2 && row >= 1.0 && row < cells_.rows - 2)) {
       return;
     }
-    // To the nearest; both are positive.
+    // To the nearest; a tie may fall either way.
+    // NOLINTNEXTLINE(bugprone-incorrect-roundings): both are positive
     const int i = static_cast<int>(column + 0.5), j = static_cast<int>(row + 0.5);
     const std::array<double, 3> u = Weights(column - i), v = Weights(row - j);
     const double head = share_ * volume_m3 * cells_per_m_ * cells_per_m_;
