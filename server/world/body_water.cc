@@ -79,7 +79,6 @@ void BodyWater::AddInteraction(std::span<const sea::InteractionFelt> interaction
       to[1] = static_cast<float>(felt.velocity_m_per_s.x);
       to[2] = static_cast<float>(felt.velocity_m_per_s.y);
     }
-    patch.FindHighest();
   }
 }
 
@@ -107,7 +106,6 @@ void BodyWater::FillOne(const IncidentSea& sea, Place& place) const {
     std::fill(to, to + 4, 0.0f);
     place.incident.height_m[n] = static_cast<float>(height_m);
   }
-  patch.FindHighest();
 }
 
 }  // namespace onesea::world

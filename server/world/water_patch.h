@@ -31,8 +31,6 @@ struct WaterPatch {
   double level_m = 0.0;                ///< mean level (tide) above z = 0
   Vec3d current_m_per_s;               ///< uniform here
   double depth_m = std::numeric_limits<double>::infinity();  ///< bottom below the mean level
-  /// No water is higher (above z = 0); what lies higher isn't looked at. Infinite: not known.
-  double highest_m = std::numeric_limits<double>::infinity();
   int bands = 0;
   std::array<double, kWaterBandsMax> wavenumber_rad_per_m{};
   /// (rows x columns x bands x 4) row-major from the south-west: height above the mean level and
@@ -44,8 +42,6 @@ struct WaterPatch {
   /// Makes room for the samples; keeps the memory of a larger patch. Pre: 2 <= columns, rows;
   /// 1 <= bands <= kWaterBandsMax.
   void Resize(int new_columns, int new_rows, int new_bands);
-  /// Finds `highest_m` of the samples: worth it where a hull has more vertices than they are.
-  void FindHighest();
   float* At(int column, int row) { return samples.data() + 4 * bands * (row * columns + column); }
 };
 

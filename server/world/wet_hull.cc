@@ -8,43 +8,6 @@
 namespace onesea::world {
 namespace {
 
-// Corner of a piece: the vertex or the place where an edge meets the surface.
-struct Corner {
-  Vec3d at_m;
-  double depth_m, head_m;
-  Vec3d relative_m_per_s;  // of the water to the hull
-};
-
-// Where the edge from wet `a` to dry `b` meets the surface; `share` is its place along the edge.
-Corner OnSurface(const Corner& a, const Corner& b, double share) {
-  const auto mix = [&](Vec3d p, Vec3d q) { return p + share * (q - p); };
-  return {mix(a.at_m, b.at_m), 0.0, 0.0, mix(a.relative_m_per_s, b.relative_m_per_s)};
-}
-
-// Pre: there is room.
-void AddPiece(const Corner (&corners)[3], Vec3d normal, double area_m2, WetPieces& pieces) {
-  const std::size_t n = pieces.count++;
-  pieces.normal_x[n] = normal.x, pieces.normal_y[n] = normal.y, pieces.normal_z[n] = normal.z;
-  pieces.area[n] = area_m2;
-  for (int k = 0; k < 3; ++k) {
-    const Corner& from = corners[k];
-    WetPieces::Corner& to = pieces.corner[k];
-    to.x[n] = from.at_m.x, to.y[n] = from.at_m.y, to.z[n] = from.at_m.z;
-    to.depth[n] = from.depth_m, to.head[n] = from.head_m;
-    to.rx[n] = from.relative_m_per_s.x;
-    to.ry[n] = from.relative_m_per_s.y;
-    to.rz[n] = from.relative_m_per_s.z;
-  }
-}
-
-// The lanes behind the last piece are nothing, not what a former hull left there.
-void PadPieces(WetPieces& pieces) {
-  const std::size_t count = pieces.count;
-  const Corner nowhere{};
-  while (pieces.count % kWetBlock != 0) AddPiece({nowhere, nowhere, nowhere}, {}, 0.0, pieces);
-  pieces.count = count;
-}
-
 Vec3d VectorOf(const std::array<double, kWetSums>& sums, int at) {
   return {sums[at], sums[at + 1], sums[at + 2]};
 }
@@ -78,9 +41,8 @@ Vec3d WetHull::TwiceArea(const std::array<std::uint32_t, 3>& triangle) const {
 }
 
 void WetHull::FillBlocks() {
-  const auto padded = [](std::size_t n) { return (n + kWetBlock - 1) / kWetBlock * kWetBlock; };
-  mesh_.vertices = padded(vertices_m_.size());
-  mesh_.triangles = padded(triangles_.size());
+  mesh_.vertices = WholeBlocks(vertices_m_.size());
+  mesh_.triangles = WholeBlocks(triangles_.size());
   for (auto* array : {&mesh_.x, &mesh_.y, &mesh_.z}) {
     *array = sea::AllocateZeros<double>(mesh_.vertices);
   }
@@ -129,59 +91,20 @@ void WetHull::Bounds(double height_m, Vec3d& low_m, Vec3d& high_m) const {
   }
 }
 
-void WetHull::Clip(std::uint32_t triangle, WetScratch& scratch) const {
-  const auto& t = triangles_[triangle];
-  const auto wet = [&](int k) { return scratch.depth[t[k % 3]] > 0.0; };
-  const bool one = wet(0) + wet(1) + wet(2) == 1;
-  // Turn the triangle so that its odd corner comes first (one wet) or last (one dry).
-  int first = 0;
-  while (one ? !wet(first) : wet(first + 2)) ++first;
-  const auto corner = [&](int k) {
-    const std::uint32_t v = t[(first + k) % 3];
-    return Corner{vertices_m_[v],
-                  scratch.depth[v],
-                  scratch.head[v],
-                  {scratch.rx[v], scratch.ry[v], scratch.rz[v]}};
-  };
-  const auto share = [](const Corner& from, const Corner& to) {
-    return from.depth_m / (from.depth_m - to.depth_m);
-  };
-  const Corner a = corner(0), b = corner(1), c = corner(2);
-  const Vec3d normal{mesh_.normal_x[triangle], mesh_.normal_y[triangle], mesh_.normal_z[triangle]};
-  const double area = mesh_.area[triangle];
-  const double ac = share(a, c);
-  if (one) {
-    const double ab = share(a, b);
-    AddPiece({a, OnSurface(a, b, ab), OnSurface(a, c, ac)}, normal, area * ab * ac, scratch.pieces);
-  } else {
-    const double bc = share(b, c);
-    const Corner on_bc = OnSurface(b, c, bc);
-    AddPiece({a, b, on_bc}, normal, area * bc, scratch.pieces);
-    AddPiece({a, on_bc, OnSurface(a, c, ac)}, normal, area * ac * (1.0 - bc), scratch.pieces);
-  }
-}
-
 WetForces WetHull::Evaluate(const HullMotion& motion, const WaterPatch& water,
                             double density_kg_per_m3, const wire::Drag& drag,
                             WetScratch& scratch) const {
   const Mat3d turn = ToMatrix(motion.pose.turn);
   const Vec3d velocity = turn.TransposeTimes(motion.velocity_m_per_s);
   const Vec3d spin = turn.TransposeTimes(motion.spin_rad_per_s);
-  const double highest = water.bands == 0 ? water.level_m : water.highest_m;
   scratch.Reserve(mesh_);
-  SampleVertices(mesh_, {motion.pose.centre_m, turn, velocity, spin, highest + 1.001 * edge_max_m_},
+  SampleVertices(mesh_, {motion.pose.centre_m, turn, velocity, spin, edge_max_m_},
                  WaterSampler(water), scratch);
   const WetCoefficients coefficients{turn.TransposeTimes({0.0, 0.0, 1.0}), drag.friction,
                                      drag.pressure, drag.suction, drag.planing};
   std::array<double, kWetSums> sums;
   WetForces out;
-  out.wet_triangles = SumSubmerged(mesh_, coefficients, scratch, sums);
-  out.wet_triangles += static_cast<int>(scratch.clipped.size());
-  scratch.pieces.count = 0;
-  scratch.pieces.Reserve(2 * scratch.clipped.size());
-  for (std::uint32_t triangle : scratch.clipped) Clip(triangle, scratch);
-  PadPieces(scratch.pieces);
-  SumPieces(scratch.pieces, coefficients, sums);
+  out.wet_triangles = SumWetted(mesh_, coefficients, scratch, sums);
 
   const double weight = density_kg_per_m3 * sea::kGravity, half = 0.5 * density_kg_per_m3;
   out.pressure_force_n = weight * VectorOf(sums, kPressureForce);

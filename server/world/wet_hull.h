@@ -54,12 +54,10 @@ class WetHull {
   double radius_m() const { return radius_m_; }
   /// Box around the part below a level plane at `height_m` above the centre of mass, body upright.
   void Bounds(double height_m, Vec3d& low_m, Vec3d& high_m) const;
-  std::size_t triangle_count() const { return triangles_.size(); }
 
  private:
   Vec3d TwiceArea(const std::array<std::uint32_t, 3>& triangle) const;
   void FillBlocks();
-  void Clip(std::uint32_t triangle, WetScratch& scratch) const;
 
   std::vector<Vec3d> vertices_m_;                        // from the centre of mass
   std::vector<std::array<std::uint32_t, 3>> triangles_;  // without slivers, lowest first

@@ -24,7 +24,6 @@ WaterPatch Sea(int bands) {
                            .to_rad = 0.7 * b};
     wave.Fill(3.0, patch, b);
   }
-  patch.FindHighest();
   return patch;
 }
 

@@ -49,7 +49,6 @@ inline void PatchAround(Vec3d centre, double half_m, int samples, const RegularW
   patch.depth_m = wave.depth_m;
   patch.Resize(samples, samples, 1);
   wave.Fill(time_s, patch, 0);
-  patch.FindHighest();
 }
 
 }  // namespace onesea::world
