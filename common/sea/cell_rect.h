@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "common/base/hash.h"
 #include "common/base/vec.h"
 
 /// Where the cells of the interaction layer lie.
@@ -25,8 +26,22 @@ struct CellRect {
   Vec2d PlaceOf(std::int64_t i, std::int64_t j) const {
     return {static_cast<double>(i) * cell_m, static_cast<double>(j) * cell_m};
   }
+  std::size_t IndexOf(std::int64_t i, std::int64_t j) const {
+    return static_cast<std::size_t>((j - south) * columns + (i - west));
+  }
+  /// Of the element `index` of a field.
+  Vec2d PlaceOfIndex(std::size_t index) const {
+    const auto n = static_cast<std::int64_t>(index);
+    return PlaceOf(west + n % columns, south + n / columns);
+  }
   bool Contains(std::int64_t i, std::int64_t j) const {
     return i >= west && i < east() && j >= south && j < north();
+  }
+  void AddTo(Hash64& hash) const {
+    for (const std::int64_t value : {west, south, std::int64_t{columns}, std::int64_t{rows}}) {
+      hash.Add(value);
+    }
+    hash.Add(cell_m);
   }
 };
 

@@ -33,20 +33,20 @@ double Read(const CellRect& cells, std::span<const float> values, int column, in
 
 // The 4 x 4 values around a spot, row by row.
 struct Neighbours {
-  Neighbours(const CellRect& cells, std::span<const float> values, const Spot& spot) {
-    const int west = spot.column - 1, south = spot.row - 1;
-    const bool inside =
-        west >= 0 && south >= 0 && west + 4 <= cells.columns && south + 4 <= cells.rows;
-    for (int j = 0; j < 4; ++j) {
-      for (int i = 0; i < 4; ++i) {
-        at[j][i] = inside ? values[static_cast<std::size_t>(south + j) * cells.columns + west + i]
-                          : Read(cells, values, west + i, south + j);
-      }
-    }
+  Neighbours(const CellRect& cells, std::span<const float> values, const Spot& spot) : at{} {
+    Add(cells, values, spot);
   }
-  void Add(const Neighbours& other) {
+  void Add(const CellRect& cells, std::span<const float> values, const Spot& spot) {
+    const int west = spot.column - 1, south = spot.row - 1;
+    if (west >= 0 && south >= 0 && west + 4 <= cells.columns && south + 4 <= cells.rows) {
+      const float* row = values.data() + static_cast<std::size_t>(south) * cells.columns + west;
+      for (int j = 0; j < 4; ++j, row += cells.columns) {
+        for (int i = 0; i < 4; ++i) at[j][i] += double{row[i]};
+      }
+      return;
+    }
     for (int j = 0; j < 4; ++j) {
-      for (int i = 0; i < 4; ++i) at[j][i] += other.at[j][i];
+      for (int i = 0; i < 4; ++i) at[j][i] += Read(cells, values, west + i, south + j);
     }
   }
   double at[4][4];
@@ -57,29 +57,43 @@ double Along(const double (&weight)[4], const double (&value)[4]) {
          weight[3] * value[3];
 }
 
+// South to north first: four columns side by side are one vector.
+void Across(const double (&weight)[4], const Neighbours& cells, double (&columns)[4]) {
+  for (int i = 0; i < 4; ++i) {
+    columns[i] =
+        ((weight[0] * cells.at[0][i] + weight[1] * cells.at[1][i]) + weight[2] * cells.at[2][i]) +
+        weight[3] * cells.at[3][i];
+  }
+}
+
 double Value(const Neighbours& cells, const Weights& x, const Weights& y) {
-  double rows[4];
-  for (int j = 0; j < 4; ++j) rows[j] = Along(x.value, cells.at[j]);
-  return Along(y.value, rows);
+  double columns[4];
+  Across(y.value, cells, columns);
+  return Along(x.value, columns);
 }
 
 // Per cell.
 Vec2d Slope(const Neighbours& cells, const Weights& x, const Weights& y) {
-  double rows[4], slopes[4];
-  for (int j = 0; j < 4; ++j) {
-    rows[j] = Along(x.value, cells.at[j]);
-    slopes[j] = Along(x.slope, cells.at[j]);
-  }
-  return {Along(y.value, slopes), Along(y.slope, rows)};
+  double columns[4], slopes[4];
+  Across(y.value, cells, columns);
+  Across(y.slope, cells, slopes);
+  return {Along(x.slope, columns), Along(x.value, slopes)};
 }
 
 double Bilinear(const CellRect& cells, std::span<const float> values, const Spot& spot) {
-  const auto along = [&](int row) {
-    const double west = Read(cells, values, spot.column, row);
-    return west + spot.x * (Read(cells, values, spot.column + 1, row) - west);
-  };
-  const double south = along(spot.row);
-  return south + spot.y * (along(spot.row + 1) - south);
+  double at[2][2];
+  const bool inside = spot.column >= 0 && spot.row >= 0 && spot.column + 1 < cells.columns &&
+                      spot.row + 1 < cells.rows;
+  for (int j = 0; j < 2; ++j) {
+    for (int i = 0; i < 2; ++i) {
+      at[j][i] =
+          inside ? values[static_cast<std::size_t>(spot.row + j) * cells.columns + spot.column + i]
+                 : Read(cells, values, spot.column + i, spot.row + j);
+    }
+  }
+  const double south = at[0][0] + spot.x * (at[0][1] - at[0][0]);
+  const double north = at[1][0] + spot.x * (at[1][1] - at[1][0]);
+  return south + spot.y * (north - south);
 }
 
 // False beyond the field's reach; written so that NaN is.
@@ -104,10 +118,10 @@ InteractionSample SampleInteraction(const InteractionField& field, Vec2d place) 
   const Neighbours heights(field.cells, field.height_m, spot);
   sample.height_m = Value(heights, x, y);
   sample.slope = (1.0 / field.cells.cell_m) * Slope(heights, x, y);
-  if (!field.velocity_x.empty()) {
-    sample.velocity = {Value(Neighbours(field.cells, field.velocity_x, spot), x, y),
-                       Value(Neighbours(field.cells, field.velocity_y, spot), x, y),
-                       Value(Neighbours(field.cells, field.velocity_z, spot), x, y)};
+  if (field.flow != nullptr) {
+    sample.velocity = {Value(Neighbours(field.cells, field.flow->x, spot), x, y),
+                       Value(Neighbours(field.cells, field.flow->y, spot), x, y),
+                       Value(Neighbours(field.cells, field.flow->z, spot), x, y)};
   }
   if (!field.foam.empty()) sample.foam = Bilinear(field.cells, field.foam, spot);
   return sample;
@@ -128,20 +142,24 @@ void InteractionHeights(const InteractionSnapshot& snapshot, std::span<const Vec
 }
 
 void AddFelt(const CellRect& cells, std::span<const float> height_m, std::span<const float> more_m,
-             std::span<const float> velocity_x, std::span<const float> velocity_y,
-             std::span<const Vec2d> places, std::span<InteractionFelt> sum) {
+             const InteractionFlow* flow, std::span<const Vec2d> places,
+             std::span<InteractionFelt> sum) {
   ONESEA_CHECK(height_m.size() == cells.cells() && places.size() == sum.size());
   ONESEA_CHECK(more_m.empty() || more_m.size() == cells.cells());
-  ONESEA_CHECK(velocity_x.size() == velocity_y.size());
+  // Most places are far off; this is one cell more than Locate()'s reach.
+  const Vec2d low = cells.PlaceOf(cells.west - 3, cells.south - 3);
+  const Vec2d high = cells.PlaceOf(cells.east() + 2, cells.north() + 2);
   for (std::size_t n = 0; n < places.size(); ++n) {
+    const Vec2d place = places[n];
+    if (!(place.x > low.x && place.x < high.x && place.y > low.y && place.y < high.y)) continue;
     Spot spot;
-    if (!Locate(cells, places[n], spot)) continue;
+    if (!Locate(cells, place, spot)) continue;
     Neighbours heights(cells, height_m, spot);
-    if (!more_m.empty()) heights.Add(Neighbours(cells, more_m, spot));
+    if (!more_m.empty()) heights.Add(cells, more_m, spot);
     sum[n].height_m += Value(heights, Weights(spot.x), Weights(spot.y));
-    if (velocity_x.empty()) continue;
-    sum[n].velocity_m_per_s = sum[n].velocity_m_per_s + Vec2d{Bilinear(cells, velocity_x, spot),
-                                                              Bilinear(cells, velocity_y, spot)};
+    if (flow == nullptr) continue;
+    sum[n].velocity_m_per_s = sum[n].velocity_m_per_s +
+                              Vec2d{Bilinear(cells, flow->x, spot), Bilinear(cells, flow->y, spot)};
   }
 }
 

@@ -12,13 +12,17 @@
 /// spectral sea.
 namespace onesea::sea {
 
-/// One region at one instant. Arrays are (rows x columns) row-major; all but the heights may be
-/// empty, the three velocities together.
+/// Velocity of the water at the surface [m/s], (rows x columns) row-major each.
+struct InteractionFlow {
+  std::vector<float> x, y, z;
+};
+
+/// One region at one instant. Arrays are (rows x columns) row-major.
 struct InteractionField {
   CellRect cells;
-  std::vector<float> height_m;                            ///< up, relative to the mean water level
-  std::vector<float> velocity_x, velocity_y, velocity_z;  ///< of the water at the surface [m/s]
-  std::vector<float> foam;  ///< share of the surface that is white, 0..1
+  std::vector<float> height_m;                  ///< up, relative to the mean water level
+  std::shared_ptr<const InteractionFlow> flow;  ///< shared while it stays; null: not known
+  std::vector<float> foam;  ///< share of the surface that is white, 0..1; empty: nowhere
 };
 
 /// All regions at one instant; never changes once made, so threads may share it.
@@ -54,10 +58,11 @@ struct InteractionFelt {
 };
 
 /// Adds to `sum` the heights of one field, by the same interpolation, those of `more_m` added to
-/// them at each cell (or none), and the velocities, which are interpolated bilinearly (or none).
+/// them at each cell (or none), and the flow, which is interpolated bilinearly (or none: null).
+/// Cost: 2 ns for a place beyond the field, else 20, 35 with `more_m`.
 void AddFelt(const CellRect& cells, std::span<const float> height_m, std::span<const float> more_m,
-             std::span<const float> velocity_x, std::span<const float> velocity_y,
-             std::span<const Vec2d> places, std::span<InteractionFelt> sum);
+             const InteractionFlow* flow, std::span<const Vec2d> places,
+             std::span<InteractionFelt> sum);
 
 /// The sample of one field.
 InteractionSample SampleInteraction(const InteractionField& field, Vec2d place);

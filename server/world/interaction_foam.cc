@@ -13,21 +13,15 @@ constexpr float kNoFoam = 1.0f / 512.0f;  // half of what 8 bits can tell
 }  // namespace
 
 InteractionFoam::InteractionFoam(const sea::CellRect& cells, const FoamOptions& options)
-    : cells_(cells),
-      options_(options),
-      shares_(cells.cells()),
-      next_(cells.cells()),
-      velocity_x_(cells.cells()),
-      velocity_y_(cells.cells()),
-      velocity_z_(cells.cells()) {}
+    : cells_(cells), options_(options), shares_(cells.cells()), next_(cells.cells()) {}
 
-void InteractionFoam::Advance(double span_s, const WaveSolver& waves) {
-  const std::span<const float> height_m = waves.height_m();
+void InteractionFoam::Advance(double span_s, std::span<const float> height_m,
+                              const sea::InteractionFlow& flow) {
   // Per row: nothing becomes of a row that has no foam within reach and no steep water.
   std::vector<bool> foam(cells_.rows), high(cells_.rows);
   // A slope is at most √2 of the highest beside it per cell.
   const auto limit_m = static_cast<float>(options_.steep * cells_.cell_m / std::sqrt(2.0));
-  bool any = false;
+  any_ = false;
   for (int row = 0; row < cells_.rows; ++row) {
     const std::size_t at = static_cast<std::size_t>(row) * cells_.columns;
     float highest = 0.0f, most = 0.0f;
@@ -37,12 +31,11 @@ void InteractionFoam::Advance(double span_s, const WaveSolver& waves) {
     }
     foam[row] = most > 0.0f;
     high[row] = !(highest < limit_m);
-    any = any || foam[row] || high[row];
+    any_ = any_ || foam[row] || high[row];
   }
-  if (!any) return;
-  waves.Velocity(velocity_x_, velocity_y_, velocity_z_);
+  if (!any_) return;
   float fastest = 0.0f;
-  for (const float speed : velocity_y_) fastest = std::max(fastest, std::abs(speed));
+  for (const float speed : flow.y) fastest = std::max(fastest, std::abs(speed));
   const double cells = fastest * span_s / cells_.cell_m;
   const int reach = cells < cells_.rows ? static_cast<int>(cells) + 2 : cells_.rows;
   for (int row = 0; row < cells_.rows; ++row) {
@@ -54,7 +47,7 @@ void InteractionFoam::Advance(double span_s, const WaveSolver& waves) {
       return false;
     };
     if (within(high, 1) || within(foam, reach)) {
-      AdvanceRow(row, span_s, height_m);
+      AdvanceRow(row, span_s, height_m, flow);
     } else {
       std::fill_n(next_.begin() + static_cast<std::ptrdiff_t>(row) * cells_.columns, cells_.columns,
                   0.0f);
@@ -63,7 +56,8 @@ void InteractionFoam::Advance(double span_s, const WaveSolver& waves) {
   shares_.swap(next_);
 }
 
-void InteractionFoam::AdvanceRow(int row, double span_s, std::span<const float> height_m) {
+void InteractionFoam::AdvanceRow(int row, double span_s, std::span<const float> height_m,
+                                 const sea::InteractionFlow& flow) {
   const int columns = cells_.columns, rows = cells_.rows;
   const auto per_two_cells = static_cast<float>(0.5 / cells_.cell_m);
   const auto cells_per_m_per_s = static_cast<float>(span_s / cells_.cell_m);
@@ -76,10 +70,9 @@ void InteractionFoam::AdvanceRow(int row, double span_s, std::span<const float> 
     const int west = std::max(column - 1, 0), east = std::min(column + 1, columns - 1);
     const std::size_t here = at(column, row);
     // Where the water that is here now was.
-    const float from_x =
-        std::clamp(static_cast<float>(column) - cells_per_m_per_s * velocity_x_[here], 0.0f,
-                   static_cast<float>(columns - 1));
-    const float from_y = std::clamp(static_cast<float>(row) - cells_per_m_per_s * velocity_y_[here],
+    const float from_x = std::clamp(static_cast<float>(column) - cells_per_m_per_s * flow.x[here],
+                                    0.0f, static_cast<float>(columns - 1));
+    const float from_y = std::clamp(static_cast<float>(row) - cells_per_m_per_s * flow.y[here],
                                     0.0f, static_cast<float>(rows - 1));
     const int x = std::min(static_cast<int>(from_x), columns - 2);
     const int y = std::min(static_cast<int>(from_y), rows - 2);

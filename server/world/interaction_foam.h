@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "common/sea/cell_rect.h"
-#include "server/world/wave_solver.h"
+#include "common/sea/interaction_field.h"
 
 /// Foam on one region: a share of white in [0, 1] per cell.
 namespace onesea::world {
@@ -24,19 +24,25 @@ class InteractionFoam {
 
   /// Carries foam with the water (semi-Lagrangian, bilinear), lets it decay and makes new where the
   /// surface is steep. Rows without foam where the water is too calm to make any cost next to
-  /// nothing, all others about 4 µs each 256 cells. Pre: the solver's cells are these.
-  void Advance(double span_s, const WaveSolver& waves);
+  /// nothing, all others about 4 µs each 256 cells. Pre: one number for each of these cells.
+  void Advance(double span_s, std::span<const float> height_m, const sea::InteractionFlow& flow);
 
-  std::span<float> shares() { return shares_; }
+  std::span<float> shares() {
+    any_ = true;  // for all that is known here
+    return shares_;
+  }
   std::span<const float> shares() const { return shares_; }
+  /// False: there is none anywhere.
+  bool any() const { return any_; }
 
  private:
   sea::CellRect cells_;
   FoamOptions options_;
-  void AdvanceRow(int row, double span_s, std::span<const float> height_m);
+  void AdvanceRow(int row, double span_s, std::span<const float> height_m,
+                  const sea::InteractionFlow& flow);
 
   std::vector<float> shares_, next_;
-  std::vector<float> velocity_x_, velocity_y_, velocity_z_;
+  bool any_ = false;
 };
 
 }  // namespace onesea::world

@@ -10,9 +10,8 @@
 #include "common/base/vec.h"
 #include "common/sea/interaction_field.h"
 #include "common/sea/terrain.h"
-#include "server/world/interaction_foam.h"
+#include "server/world/interaction_grid.h"
 #include "server/world/region_layout.h"
-#include "server/world/wave_solver.h"
 
 /// The interaction layer of a session: regions of waves that add to the spectral sea.
 ///
@@ -28,7 +27,8 @@
 ///
 /// iWave, the dearest, steps only every second or third tick where its shortest waves are slow
 /// enough (cells of 0.35 m and more at 60 Hz); in between its heights go over linearly, sources
-/// wait for the next step, and velocities are those of up to two ticks ahead.
+/// wait for the next step, and velocities are those of up to two ticks ahead. Those of the other
+/// solvers are up to two ticks old.
 ///
 /// Deterministic: same asks, deposits and order, same bits. Not thread-safe; snapshots are.
 namespace onesea::world {
@@ -42,25 +42,8 @@ struct InteractionOptions {
   FoamOptions foam = {};
 };
 
-/// One region's forcing for the next step, to be filled cell by cell with finite numbers;
-/// (rows x columns) each. StepForcing says what they are. What isn't announced isn't read.
-struct RegionForcing {
-  sea::CellRect cells;
-  RegionTraits traits;
-  std::span<float> source_m, pressure_head_m, solid, rest_height_m;
-  bool has_source = false, has_pressure = false, has_solid = false;  ///< set by whoever writes
-  bool any() const { return has_source || has_pressure || has_solid; }
-};
-
 /// Everything that the next step depends on.
 struct InteractionState {
-  struct RegionState {
-    Region region;
-    std::vector<float> waves;                ///< WaveSolver::State
-    std::vector<float> foam;                 ///< (rows x columns)
-    std::vector<float> before_m, between_m;  ///< likewise, or empty: the solver steps every tick
-    std::vector<float> source_m;             ///< (rows x columns), waiting
-  };
   std::int64_t steps = 0;
   std::vector<PlacedAsk> asks;
   std::vector<RegionState> regions;
@@ -101,13 +84,12 @@ class InteractionLayer {
   int resets() const { return resets_; }  ///< how often that happened
 
   /// Adds what hulls feel of the layer at these places: the heights plus the pressure heads put in
-  /// for the next step, and the velocities of the last Snapshot() that has them.
+  /// for the next step, and the velocities of the last Snapshot().
   /// Cost: 25 ns a place and region, 40 where hulls press.
   void AddFelt(std::span<const Vec2d> places, std::span<sea::InteractionFelt> sum) const;
 
-  /// `velocities` costs another 0.1 ms a region of 256 x 256.
-  std::shared_ptr<const sea::InteractionSnapshot> Snapshot(std::int64_t tick,
-                                                           bool velocities) const;
+  /// Cost: 20 µs a region of 256 x 256, every third tick another 100 for the velocities.
+  std::shared_ptr<const sea::InteractionSnapshot> Snapshot(std::int64_t tick);
 
   InteractionState State() const;
   /// InvalidArgument: regions that cannot be made or states of another size. The layer is then
@@ -116,17 +98,16 @@ class InteractionLayer {
   std::uint64_t Hash() const;
 
  private:
-  struct Grid;
-  absl::StatusOr<std::unique_ptr<Grid>> MakeGrid(const Region& region) const;
-  Grid* BestAt(Vec2d place);
+  absl::StatusOr<std::unique_ptr<InteractionGrid>> MakeGrid(const Region& region) const;
+  InteractionGrid* BestAt(Vec2d place);
   /// Moves the waves of grids that are no more to those that are.
-  void AdoptFrom(std::vector<std::unique_ptr<Grid>>& dropped);
+  void AdoptFrom(std::vector<std::unique_ptr<InteractionGrid>>& dropped);
 
   InteractionOptions options_;
   std::int64_t steps_ = 0;
   int resets_ = 0;
   std::vector<PlacedAsk> asks_;
-  std::vector<std::unique_ptr<Grid>> grids_;
+  std::vector<std::unique_ptr<InteractionGrid>> grids_;
 };
 
 }  // namespace onesea::world

@@ -45,7 +45,7 @@ void Fill(const sea::CellRect& region, std::span<const Vec2d> corners_m, std::ve
   for (std::int64_t j = j_first; j < j_end; ++j) {
     for (std::int64_t i = i_first; i < i_end; ++i) {
       if (!InsidePolygon(corners_m, region.PlaceOf(i, j))) continue;
-      solid[static_cast<std::size_t>((j - region.south) * region.columns + i - region.west)] = true;
+      solid[region.IndexOf(i, j)] = true;
     }
   }
 }
@@ -74,9 +74,7 @@ const Obstacles::Cells& Obstacles::CellsIn(const sea::CellRect& region) {
   for (std::size_t n = 0; n < solid.size(); ++n) {
     if (!solid[n]) continue;
     cells.index.push_back(n);
-    cells.place_m.push_back(
-        region.PlaceOf(region.west + static_cast<std::int64_t>(n) % region.columns,
-                       region.south + static_cast<std::int64_t>(n) / region.columns));
+    cells.place_m.push_back(region.PlaceOfIndex(n));
   }
   return cells;
 }

@@ -237,8 +237,7 @@ void PotentialSolver::Adopt(const WaveSolver& other) {
     for (std::int64_t i = both.west; i < both.east(); ++i) {
       const auto column = static_cast<int>(i - spec_.cells.west);
       if (!Wet(column, row)) continue;
-      const auto source = static_cast<std::size_t>((j - from.cells.south) * from.cells.columns +
-                                                   (i - from.cells.west));
+      const std::size_t source = from.cells.IndexOf(i, j);
       height_[static_cast<std::size_t>(row) * spec_.cells.columns + column] += state[source];
       phi_.Row(row)[column] += state[from.cells.cells() + source];
     }

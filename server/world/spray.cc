@@ -60,7 +60,8 @@ void AddHullSpray(const BodyModel& model, const BodyState& state, const BodyLoad
 void AddCrestSpray(const sea::InteractionField& field, double span_s,
                    std::vector<wire::Spray>& spray) {
   const sea::CellRect& cells = field.cells;
-  const std::vector<float>& up = field.velocity_z;
+  if (field.flow == nullptr) return;
+  const std::vector<float>& up = field.flow->z;
   const auto fast = static_cast<float>(kCrestSpeedMPerS);
   const auto steepness = [&](std::size_t at) {
     const double here = field.height_m[at];
@@ -83,13 +84,11 @@ void AddCrestSpray(const sea::InteractionField& field, double span_s,
         }
       }
       if (best == 0) continue;
-      const Vec2d place =
-          cells.PlaceOf(cells.west + static_cast<std::int64_t>(best) % cells.columns,
-                        cells.south + static_cast<std::int64_t>(best) / cells.columns);
+      const Vec2d place = cells.PlaceOfIndex(best);
       const double mass_kg =
           kCrestShare * sea::kWaterDensityKgPerM3 * cells.cell_m * cells.cell_m * best_up * span_s;
       Add({place.x, place.y, field.height_m[best]},
-          {field.velocity_x[best], field.velocity_y[best], best_up}, mass_kg, spray);
+          {field.flow->x[best], field.flow->y[best], best_up}, mass_kg, spray);
     }
   }
 }

@@ -256,6 +256,7 @@ void World::SprayFromCrests(const WorldView& view) {
 void World::HoldObstacles() {
   if (obstacles_.empty()) return;
   layer_.ForEachForcing([&](RegionForcing& forcing) {
+    if (!forcing.is_read) return;
     const Obstacles::Cells& cells = obstacles_.CellsIn(forcing.cells);
     if (cells.index.empty()) return;
     obstacle_samples_.resize(cells.index.size());
@@ -274,7 +275,7 @@ void World::Publish(Change change) {
   auto view = std::make_shared<WorldView>();
   view->tick = tick_;
   view->water_level_m = LevelAt(TimeOfTick(tick_, options_.tick_rate_hz));
-  view->interaction = change == Change::kBodies ? view_->interaction : layer_.Snapshot(tick_, true);
+  view->interaction = change == Change::kBodies ? view_->interaction : layer_.Snapshot(tick_);
   view->past = past_;
   view->ropes = ropes_;
   if (change == Change::kTick) {

@@ -91,7 +91,7 @@ void LayerTick(benchmark::State& state) {
     ONESEA_CHECK(layer.Place(asks).ok());
     layer.AddPressure({3.0, 2.0}, 2.0, 2e4);
     layer.Step();
-    benchmark::DoNotOptimize(layer.Snapshot(0, false));
+    benchmark::DoNotOptimize(layer.Snapshot(0));
   }
 }
 BENCHMARK(LayerTick)->Unit(benchmark::kMicrosecond);
@@ -102,7 +102,7 @@ void Heights(benchmark::State& state) {
   ONESEA_CHECK(layer.Place(asks).ok());
   layer.AddSource({0, 0}, 5.0, 10.0);
   layer.Step();
-  const auto snapshot = layer.Snapshot(0, false);
+  const auto snapshot = layer.Snapshot(0);
   std::vector<Vec2d> places(1000);
   for (std::size_t n = 0; n < places.size(); ++n) {
     const auto i = static_cast<double>(n);

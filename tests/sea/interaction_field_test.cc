@@ -15,17 +15,19 @@ InteractionField Field(double west_m, double height_m, double k) {
                  .columns = 64,
                  .rows = 40,
                  .cell_m = 0.5};
+  const auto flow = std::make_shared<InteractionFlow>();
   for (int row = 0; row < 40; ++row) {
     for (int column = 0; column < 64; ++column) {
       const Vec2d place = field.cells.PlaceOf(field.cells.west + column, -20 + row);
       field.height_m.push_back(
           static_cast<float>(height_m * std::sin(k * place.x + 0.3) * std::cos(0.7 * k * place.y)));
-      field.velocity_x.push_back(static_cast<float>(place.x));
-      field.velocity_y.push_back(static_cast<float>(place.y));
-      field.velocity_z.push_back(0.25f);
+      flow->x.push_back(static_cast<float>(place.x));
+      flow->y.push_back(static_cast<float>(place.y));
+      flow->z.push_back(0.25f);
       field.foam.push_back(0.7f);
     }
   }
+  field.flow = flow;
   return field;
 }
 

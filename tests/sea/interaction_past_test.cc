@@ -20,14 +20,16 @@ double Height(double tick, Vec2d place) {
 std::shared_ptr<const InteractionSnapshot> Wave(Tick tick) {
   auto field = std::make_shared<InteractionField>();
   field->cells = {.west = -32, .south = -32, .columns = 64, .rows = 64, .cell_m = 0.5};
+  const auto flow = std::make_shared<InteractionFlow>();
   for (int n = 0; n < 64 * 64; ++n) {
-    const Vec2d place = field->cells.PlaceOf(n % 64 - 32, n / 64 - 32);
+    const Vec2d place = field->cells.PlaceOfIndex(n);
     const double phase = 0.6 * place.x - kOmega * static_cast<double>(tick) / kRate;
     field->height_m.push_back(static_cast<float>(0.5 * std::cos(phase)));
-    field->velocity_x.push_back(static_cast<float>(0.5 * kOmega * std::cos(phase)));
-    field->velocity_y.push_back(0.0f);
-    field->velocity_z.push_back(static_cast<float>(0.5 * kOmega * std::sin(phase)));
+    flow->x.push_back(static_cast<float>(0.5 * kOmega * std::cos(phase)));
+    flow->y.push_back(0.0f);
+    flow->z.push_back(static_cast<float>(0.5 * kOmega * std::sin(phase)));
   }
+  field->flow = flow;
   auto snapshot = std::make_shared<InteractionSnapshot>();
   snapshot->tick = tick;
   snapshot->fields = {field};

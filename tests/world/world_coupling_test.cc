@@ -104,7 +104,7 @@ TEST(WorldCoupling, WavesHaveTheMomentumThatTheBodyLost) {
   double waves_n_s = 0.0, energy_j = 0.0;
   const double cell_m2 = field.cells.cell_m * field.cells.cell_m;
   for (std::size_t n = 0; n < field.height_m.size(); ++n) {
-    waves_n_s += sea::kWaterDensityKgPerM3 * cell_m2 * field.height_m[n] * field.velocity_x[n];
+    waves_n_s += sea::kWaterDensityKgPerM3 * cell_m2 * field.height_m[n] * field.flow->x[n];
     energy_j += 0.5 * kRhoG * cell_m2 * field.height_m[n] * field.height_m[n];
   }
   EXPECT_GT(lost_n_s, 200.0);
@@ -125,7 +125,7 @@ TEST(WorldCoupling, WaterThatMakesRoomIsFoundAround) {
     layer.Step();
     if (n % 50 != 49) continue;
     double sum = 0.0, under = 0.0;
-    const auto snapshot = layer.Snapshot(n, false);
+    const auto snapshot = layer.Snapshot(n);
     for (const float height : snapshot->fields[0]->height_m) sum += 0.25 * height;
     for (double x = -0.5; x <= 6.5; x += 0.5) {
       for (double y = -5.5; y <= 1.5; y += 0.5) {

@@ -82,10 +82,12 @@ TEST(CrestSpray, ComesFromSharpFastCrestsOnly) {
   sea::InteractionField field;
   field.cells = {.west = 0, .south = 0, .columns = 64, .rows = 64, .cell_m = 0.5};
   field.height_m.assign(64 * 64, 0.0f);
-  field.velocity_x = field.velocity_y = field.velocity_z = field.height_m;
+  const auto flow = std::make_shared<sea::InteractionFlow>();
+  flow->x = flow->y = flow->z = field.height_m;
+  field.flow = flow;
   std::vector<wire::Spray> spray;
   const std::size_t at = 20 * 64 + 30;
-  field.velocity_z[at] = 3.0f;
+  flow->z[at] = 3.0f;
   AddCrestSpray(field, 0.1, spray);
   EXPECT_TRUE(spray.empty());  // fast, but flat
   field.height_m[at] = 0.2f;   // bent by 3.2 / m: 0.64
@@ -96,7 +98,7 @@ TEST(CrestSpray, ComesFromSharpFastCrestsOnly) {
   EXPECT_EQ(spray[0].velocity_m_per_s.z, 3.0);
   EXPECT_NEAR(spray[0].mass_kg, 0.02 * sea::kWaterDensityKgPerM3 * 0.25 * 3.0 * 0.1, 1e-9);
   spray.clear();
-  field.velocity_z[at] = 1.0f;  // slow
+  flow->z[at] = 1.0f;  // slow
   AddCrestSpray(field, 0.1, spray);
   EXPECT_TRUE(spray.empty());
 }
