@@ -49,8 +49,8 @@ int CellsAlong(double size_m) {
 TriangleMesh MakeMesh(const BodyShape& shape) {
   switch (shape.kind) {
     case ShapeKind::kBox:
-      return BoxMesh(shape.size_m,
-                     CellsAlong(std::max({shape.size_m.x, shape.size_m.y, shape.size_m.z})));
+      return BoxMesh(shape.size_m, {CellsAlong(shape.size_m.x), CellsAlong(shape.size_m.y),
+                                    CellsAlong(shape.size_m.z)});
     case ShapeKind::kSphere:
       return SphereMesh(shape.radius_m);
     case ShapeKind::kCylinder:

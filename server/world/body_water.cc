@@ -19,8 +19,7 @@ constexpr double kInteractionWavenumber = 1e-6;
 double DepthAt(const IncidentSea& sea, const WaterPatch& patch) {
   double depth_m = sea.depth_m > 0.0 ? sea.depth_m : std::numeric_limits<double>::infinity();
   if (sea.terrain != nullptr) {
-    const Vec2d middle{patch.west_m + 0.5 * (patch.columns - 1) * patch.cell_m,
-                       patch.south_m + 0.5 * (patch.rows - 1) * patch.cell_m};
+    const Vec2d middle = patch.PlaceOf(0.5 * (patch.columns - 1), 0.5 * (patch.rows - 1));
     depth_m = std::min(depth_m, -sea.terrain->ElevationAt(middle));
   }
   return std::max(depth_m + sea.level_m, 0.1);
@@ -33,22 +32,28 @@ void BodyWater::Clear() {
   points_m_.clear();
 }
 
-std::size_t BodyWater::Add(Vec2d centre_m, double radius_m, bool in_flow) {
+std::size_t BodyWater::Add(const WaterUnder& body) {
   if (count_ == places_.size()) places_.emplace_back();
   Place& place = places_[count_];
-  place.in_flow = in_flow;
-  const double half_m = kMargin * radius_m;
-  const double spacing_m = std::max(0.5 * radius_m, kSampleSpacingMinM);
-  place.side =
-      std::clamp(static_cast<int>(std::ceil(2.0 * half_m / spacing_m)) + 1, kSideMin, kSideMax);
+  place.is_in_grid = body.is_in_grid;
   place.first_point = points_m_.size();
-  place.patch.west_m = place.incident.west_m = centre_m.x - half_m;
-  place.patch.south_m = place.incident.south_m = centre_m.y - half_m;
-  place.patch.cell_m = place.incident.cell_m = 2.0 * half_m / (place.side - 1);
-  for (int row = 0; row < place.side; ++row) {
-    for (int column = 0; column < place.side; ++column) {
-      points_m_.push_back({place.patch.west_m + column * place.patch.cell_m,
-                           place.patch.south_m + row * place.patch.cell_m});
+  const double longer_m = kMargin * std::max(body.half_m.x, body.half_m.y);
+  const double spacing_m = std::max(0.5 * longer_m / kMargin, kSampleSpacingMinM);
+  const auto samples = [](double half_m, double apart_m) {
+    return std::clamp(static_cast<int>(std::ceil(2.0 * half_m / apart_m)) + 1, kSideMin, kSideMax);
+  };
+  WaterPatch& patch = place.patch;
+  patch.cell_m = 2.0 * longer_m / (samples(longer_m, spacing_m) - 1);
+  // Rounding must not ask for a sample more along the longer side.
+  const double apart_m = 1.000001 * patch.cell_m;
+  patch.columns = samples(kMargin * body.half_m.x, apart_m);
+  patch.rows = samples(kMargin * body.half_m.y, apart_m);
+  patch.along = body.along;
+  patch.corner_m = body.centre_m;
+  patch.corner_m = patch.PlaceOf(-0.5 * (patch.columns - 1), -0.5 * (patch.rows - 1));
+  for (int row = 0; row < patch.rows; ++row) {
+    for (int column = 0; column < patch.columns; ++column) {
+      points_m_.push_back(patch.PlaceOf(column, row));
     }
   }
   return count_++;
@@ -70,12 +75,11 @@ void BodyWater::AddInteraction(std::span<const sea::InteractionFelt> interaction
   for (std::size_t n = 0; n < count_; ++n) {
     Place& place = places_[n];
     WaterPatch& patch = place.patch;
-    const std::size_t points = static_cast<std::size_t>(place.side) * place.side;
-    for (std::size_t at = 0; at < points; ++at) {
+    for (std::size_t at = 0; at < place.points(); ++at) {
       const sea::InteractionFelt& felt = interaction[place.first_point + at];
       float* to = patch.samples.data() + 4 * (patch.bands * at + patch.bands - 1);
       to[0] = static_cast<float>(felt.height_m);
-      if (!place.in_flow) continue;
+      if (place.is_in_grid) continue;
       to[1] = static_cast<float>(felt.velocity_m_per_s.x);
       to[2] = static_cast<float>(felt.velocity_m_per_s.y);
     }
@@ -85,7 +89,7 @@ void BodyWater::AddInteraction(std::span<const sea::InteractionFelt> interaction
 void BodyWater::FillOne(const IncidentSea& sea, Place& place) const {
   const std::size_t sea_bands = sea.waves == nullptr ? 0 : sea.wavenumber_rad_per_m.size();
   WaterPatch& patch = place.patch;
-  patch.Resize(place.side, place.side, static_cast<int>(sea_bands) + 1);
+  patch.Resize(patch.columns, patch.rows, static_cast<int>(sea_bands) + 1);
   patch.level_m = sea.level_m;
   patch.current_m_per_s = {sea.current_m_per_s.x, sea.current_m_per_s.y, 0.0};
   patch.depth_m = DepthAt(sea, patch);
@@ -93,18 +97,30 @@ void BodyWater::FillOne(const IncidentSea& sea, Place& place) const {
     patch.wavenumber_rad_per_m[b] = sea.wavenumber_rad_per_m[b];
   }
   patch.wavenumber_rad_per_m[sea_bands] = kInteractionWavenumber;
-  const std::size_t points = static_cast<std::size_t>(place.side) * place.side;
-  place.incident.columns = place.incident.rows = place.side;
-  place.incident.height_m.resize(points);
-  for (std::size_t n = 0; n < points; ++n) {
+  for (std::size_t n = 0; n < place.points(); ++n) {
     const float* from = bands_.data() + 4 * sea_bands * (place.first_point + n);
     float* to = patch.samples.data() + 4 * (sea_bands + 1) * n;
-    double height_m = sea.level_m;
-    for (std::size_t b = 0; b < sea_bands; ++b) height_m += from[4 * b];
     std::copy(from, from + 4 * sea_bands, to);
-    to += 4 * sea_bands;
-    std::fill(to, to + 4, 0.0f);
-    place.incident.height_m[n] = static_cast<float>(height_m);
+    std::fill(to + 4 * sea_bands, to + 4 * sea_bands + 4, 0.0f);
+  }
+  if (place.is_in_grid) FillIncident(sea.level_m, place);
+}
+
+void BodyWater::FillIncident(double level_m, Place& place) const {
+  const WaterPatch& patch = place.patch;
+  HeightPatch& incident = place.incident;
+  incident.west_m = patch.corner_m.x;
+  incident.south_m = patch.corner_m.y;
+  incident.cell_m = patch.cell_m;
+  incident.columns = patch.columns;
+  incident.rows = patch.rows;
+  incident.height_m.resize(place.points());
+  for (std::size_t n = 0; n < place.points(); ++n) {
+    double height_m = level_m;
+    for (int b = 0; b + 1 < patch.bands; ++b) {
+      height_m += patch.samples[4 * (patch.bands * n + b)];
+    }
+    incident.height_m[n] = static_cast<float>(height_m);
   }
 }
 

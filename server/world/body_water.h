@@ -24,16 +24,25 @@ struct IncidentSea {
   const sea::Terrain* terrain = nullptr;
 };
 
+/// Where a body needs to know the water.
+struct WaterUnder {
+  Vec2d centre_m;
+  Vec2d half_m;           ///< reach along its heading and across
+  Vec2d along{1.0, 0.0};  ///< its heading, unit
+  /// It presses on the grid as it lies (Radiation::kGrid): it is told the heights without the
+  /// layer, and the layer's velocity, which is its own waves', doesn't move it. Pre: heading east.
+  bool is_in_grid = false;
+};
+
 /// Reuses its memory: allocates only when there are more bodies than ever. Not thread-safe.
 class BodyWater {
  public:
   /// Forgets the bodies of the tick before.
   void Clear();
-  /// Lays samples under a body that stays within `radius_m` of `centre_m`: between 3 x 3 and
-  /// 13 x 13, half a radius apart or `kSampleSpacingMinM`, so that waves shorter than the hull are
-  /// seen, and those that it averages out may be missed. `in_flow`: the layer's velocity moves it.
-  /// Returns its index.
-  std::size_t Add(Vec2d centre_m, double radius_m, bool in_flow = true);
+  /// Lays samples under a body: 3 to 13 along its heading and across, half its reach apart or
+  /// `kSampleSpacingMinM`, so that waves shorter than the hull are seen, and those that it averages
+  /// out may be missed. Returns its index.
+  std::size_t Add(const WaterUnder& body);
 
   /// Where the samples of all bodies lie.
   std::span<const Vec2d> points_m() const { return points_m_; }
@@ -46,18 +55,22 @@ class BodyWater {
   void AddInteraction(std::span<const sea::InteractionFelt> interaction);
 
   const WaterPatch& patch(std::size_t body) const { return places_[body].patch; }
-  /// Height of the incident sea and the level, without the interaction layer.
+  std::span<const Vec2d> points_m(std::size_t body) const {
+    return {points_m_.data() + places_[body].first_point, places_[body].points()};
+  }
+  /// Height of the incident sea and the level, without the interaction layer. Pre: is_in_grid.
   const HeightPatch& incident(std::size_t body) const { return places_[body].incident; }
 
  private:
   struct Place {
     std::size_t first_point = 0;
-    int side = 0;
-    bool in_flow = true;
+    bool is_in_grid = false;
     WaterPatch patch{};
     HeightPatch incident{};
+    std::size_t points() const { return static_cast<std::size_t>(patch.columns) * patch.rows; }
   };
   void FillOne(const IncidentSea& sea, Place& place) const;
+  void FillIncident(double level_m, Place& place) const;
 
   std::vector<Place> places_;  // never shrinks; the first count_ are in use
   std::size_t count_ = 0;

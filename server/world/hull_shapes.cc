@@ -58,23 +58,25 @@ void MatchVolumeRadially(TriangleMesh& mesh, double volume_m3) {
 
 }  // namespace
 
-TriangleMesh BoxMesh(Vec3d size_m, int cells) {
-  ONESEA_CHECK(size_m.x > 0 && size_m.y > 0 && size_m.z > 0 && cells >= 1);
+TriangleMesh BoxMesh(Vec3d size_m, std::array<int, 3> cells) {
+  const double size[] = {size_m.x, size_m.y, size_m.z};
+  for (int axis = 0; axis < 3; ++axis) ONESEA_CHECK(size[axis] > 0 && cells[axis] >= 1);
   TriangleMesh mesh;
-  // Outward normal along `n` with sign; u x v = n.
-  const auto face = [&](double Vec3d::*n, double Vec3d::*u, double Vec3d::*v, double sign) {
+  // Outward normal along axis `n` with sign; u x v = n.
+  const auto face = [&](int n, double sign) {
+    const int u = (n + 1) % 3, v = (n + 2) % 3;
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-    const auto row = static_cast<std::uint32_t>(cells + 1);
-    for (int j = 0; j <= cells; ++j) {
-      for (int i = 0; i <= cells; ++i) {
-        Vec3d p;
-        p.*n = 0.5 * sign * (size_m.*n);
-        p.*u = (static_cast<double>(i) / cells - 0.5) * (size_m.*u);
-        p.*v = (static_cast<double>(j) / cells - 0.5) * (size_m.*v);
-        mesh.vertices.push_back(p);
+    const auto row = static_cast<std::uint32_t>(cells[u] + 1);
+    for (int j = 0; j <= cells[v]; ++j) {
+      for (int i = 0; i <= cells[u]; ++i) {
+        double p[3];
+        p[n] = 0.5 * sign * size[n];
+        p[u] = (static_cast<double>(i) / cells[u] - 0.5) * size[u];
+        p[v] = (static_cast<double>(j) / cells[v] - 0.5) * size[v];
+        mesh.vertices.push_back({p[0], p[1], p[2]});
       }
     }
-    for (std::uint32_t j = 0; j + 1 < row; ++j) {
+    for (std::uint32_t j = 0; j < static_cast<std::uint32_t>(cells[v]); ++j) {
       for (std::uint32_t i = 0; i + 1 < row; ++i) {
         const std::uint32_t a = first + j * row + i;
         if (sign > 0) {
@@ -86,13 +88,13 @@ TriangleMesh BoxMesh(Vec3d size_m, int cells) {
     }
   };
   for (const double sign : {-1.0, 1.0}) {
-    face(&Vec3d::x, &Vec3d::y, &Vec3d::z, sign);
-    face(&Vec3d::y, &Vec3d::z, &Vec3d::x, sign);
-    face(&Vec3d::z, &Vec3d::x, &Vec3d::y, sign);
+    for (int axis = 0; axis < 3; ++axis) face(axis, sign);
   }
   Weld(mesh);
   return mesh;
 }
+
+TriangleMesh BoxMesh(Vec3d size_m, int cells) { return BoxMesh(size_m, {cells, cells, cells}); }
 
 TriangleMesh SphereMesh(double radius_m, int rings) {
   ONESEA_CHECK(radius_m > 0 && rings >= 3);

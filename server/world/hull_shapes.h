@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "server/world/hull.h"
 
 /// Closed meshes of simple bodies, centred at the origin of the body frame. Pre: sizes > 0.
@@ -8,7 +10,9 @@
 /// true body: drafts come out right at any number of facets.
 namespace onesea::world {
 
-/// `cells` squares along each edge: waves shorter than a face need inner vertices.
+/// Rectangles along the edges in x, y and z: waves shorter than a face need inner vertices.
+TriangleMesh BoxMesh(Vec3d size_m, std::array<int, 3> cells);
+/// As many along each edge.
 TriangleMesh BoxMesh(Vec3d size_m, int cells = 4);
 
 /// 2 · rings · (rings - 1) · 2 triangles; poles on the z axis.

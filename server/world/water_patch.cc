@@ -77,10 +77,11 @@ WaterPoint SampleWater(const WaterSampler& sampler, Vec3d place) {
     const double depth = patch.level_m - place.z;
     return {depth, std::max(0.0, depth), patch.current_m_per_s};
   }
-  const double u = std::clamp((place.x - patch.west_m) * sampler.cells_per_m, 0.0,
-                              static_cast<double>(patch.columns - 1));
-  const double v = std::clamp((place.y - patch.south_m) * sampler.cells_per_m, 0.0,
-                              static_cast<double>(patch.rows - 1));
+  const Vec2d from{place.x - patch.corner_m.x, place.y - patch.corner_m.y};
+  const double x = from.x * patch.along.x + from.y * patch.along.y;
+  const double y = from.y * patch.along.x - from.x * patch.along.y;
+  const double u = std::clamp(x * sampler.cells_per_m, 0.0, static_cast<double>(patch.columns - 1));
+  const double v = std::clamp(y * sampler.cells_per_m, 0.0, static_cast<double>(patch.rows - 1));
   const int column = std::min(static_cast<int>(u), patch.columns - 2);
   const int row = std::min(static_cast<int>(v), patch.rows - 2);
   const auto wu = static_cast<float>(u - column), wv = static_cast<float>(v - row);

@@ -25,16 +25,17 @@ static_assert(kWaterBandsMax >= kCascadesMax + 2 &&
               kWaterBandsMax <= 16);  // cascades, regular waves, interaction layer
 
 struct WaterPatch {
-  double west_m = 0.0, south_m = 0.0;  ///< place of the first sample
-  double cell_m = 1.0;                 ///< distance of samples
-  int columns = 0, rows = 0;           ///< at least 2 each, unless there are no bands
-  double level_m = 0.0;                ///< mean level (tide) above z = 0
-  Vec3d current_m_per_s;               ///< uniform here
+  Vec2d corner_m;             ///< place of the first sample
+  Vec2d along{1.0, 0.0};      ///< way of a row of samples, unit; columns go to its left
+  double cell_m = 1.0;        ///< distance of samples
+  int columns = 0, rows = 0;  ///< at least 2 each, unless there are no bands
+  double level_m = 0.0;       ///< mean level (tide) above z = 0
+  Vec3d current_m_per_s;      ///< uniform here
   double depth_m = std::numeric_limits<double>::infinity();  ///< bottom below the mean level
   int bands = 0;
   std::array<double, kWaterBandsMax> wavenumber_rad_per_m{};
-  /// (rows x columns x bands x 4) row-major from the south-west: height above the mean level and
-  /// velocity x, y, z at the surface [m, m/s], each band's share.
+  /// (rows x columns x bands x 4) row-major from the corner: height above the mean level and
+  /// velocity in the world's x, y, z at the surface [m, m/s], each band's share.
   std::vector<float> samples;
 
   /// No waves: the level and the current.
@@ -42,6 +43,10 @@ struct WaterPatch {
   /// Makes room for the samples; keeps the memory of a larger patch. Pre: 2 <= columns, rows;
   /// 1 <= bands <= kWaterBandsMax.
   void Resize(int new_columns, int new_rows, int new_bands);
+  Vec2d PlaceOf(double column, double row) const {
+    const double x = column * cell_m, y = row * cell_m;
+    return {corner_m.x + (x * along.x - y * along.y), corner_m.y + (x * along.y + y * along.x)};
+  }
   float* At(int column, int row) { return samples.data() + 4 * bands * (row * columns + column); }
 };
 

@@ -17,8 +17,10 @@ Vec3d VectorOf(const std::array<double, kWetSums>& sums, int at) {
 WetHull::WetHull(const TriangleMesh& mesh, Vec3d centre_of_mass_m) {
   vertices_m_.reserve(mesh.vertices.size());
   for (const Vec3d& v : mesh.vertices) {
-    vertices_m_.push_back(v - centre_of_mass_m);
-    radius_m_ = std::max(radius_m_, Norm(vertices_m_.back()));
+    const Vec3d& from = vertices_m_.emplace_back(v - centre_of_mass_m);
+    radius_m_ = std::max(radius_m_, Norm(from));
+    reach_m_ = {std::max(reach_m_.x, std::abs(from.x)), std::max(reach_m_.y, std::abs(from.y)),
+                std::max(reach_m_.z, std::abs(from.z))};
   }
   for (const auto& t : mesh.triangles) {
     for (int k = 0; k < 3; ++k) {

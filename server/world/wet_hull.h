@@ -52,6 +52,8 @@ class WetHull {
 
   /// Farthest vertex from the centre of mass.
   double radius_m() const { return radius_m_; }
+  /// Farthest vertex along each of the body's axes, to either side of the centre of mass.
+  Vec3d reach_m() const { return reach_m_; }
   /// Box around the part below a level plane at `height_m` above the centre of mass, body upright.
   void Bounds(double height_m, Vec3d& low_m, Vec3d& high_m) const;
 
@@ -63,6 +65,7 @@ class WetHull {
   std::vector<std::array<std::uint32_t, 3>> triangles_;  // without slivers, lowest first
   WetMesh mesh_;                                         // the same
   double radius_m_ = 0.0;
+  Vec3d reach_m_;
   double edge_max_m_ = 0.0;
 };
 

@@ -112,24 +112,30 @@ double PlaceVertices(const WetMesh& mesh, const WetMotion& motion, const WaterSa
   const D d;
   const WaterPatch& patch = *sampler.patch;
   const auto& m = motion.turn.m;
-  V lowest = hn::Set(d, motion.centre_m.z);
+  // The turn from the body's axes to those of the patch, in cells.
+  const double c = patch.along.x * sampler.cells_per_m, s = patch.along.y * sampler.cells_per_m;
+  const auto across = [&](double east, double north) {
+    return Vec3d{east * m[0] + north * m[3], east * m[1] + north * m[4],
+                 east * m[2] + north * m[5]};
+  };
+  const Vec2d from{motion.centre_m.x - patch.corner_m.x, motion.centre_m.y - patch.corner_m.y};
+  const Vec3v to_column = SetAll(across(c, s)), to_row = SetAll(across(-s, c)),
+              to_above = SetAll({m[6], m[7], m[8]});
+  const V column = hn::Set(d, c * from.x + s * from.y), row = hn::Set(d, c * from.y - s * from.x),
+          centre = hn::Set(d, motion.centre_m.z);
+  const auto inside = [&](V at, int count) HWY_ATTR {
+    return hn::Min(hn::Max(at, hn::Zero(d)), hn::Set(d, static_cast<double>(count - 1)));
+  };
+  V lowest = centre;
   for (std::size_t n = 0; n < mesh.vertices; n += hn::Lanes(d)) {
-    const V x = hn::Load(d, mesh.x.get() + n), y = hn::Load(d, mesh.y.get() + n),
-            z = hn::Load(d, mesh.z.get() + n);
-    const auto row = [&](int r, double centre) HWY_ATTR {
-      const V xy = hn::Add(hn::Mul(hn::Set(d, m[3 * r]), x), hn::Mul(hn::Set(d, m[3 * r + 1]), y));
-      return hn::Add(hn::Set(d, centre), hn::Add(xy, hn::Mul(hn::Set(d, m[3 * r + 2]), z)));
-    };
-    const auto cell = [&](V at, double origin, int count) HWY_ATTR {
-      const V u = hn::Mul(hn::Sub(at, hn::Set(d, origin)), hn::Set(d, sampler.cells_per_m));
-      return hn::Min(hn::Max(u, hn::Zero(d)), hn::Set(d, static_cast<double>(count - 1)));
-    };
-    const V above = row(2, motion.centre_m.z);
+    const Vec3v place(hn::Load(d, mesh.x.get() + n), hn::Load(d, mesh.y.get() + n),
+                      hn::Load(d, mesh.z.get() + n));
+    const V above = hn::Add(centre, Product(to_above, place));
     lowest = hn::Min(lowest, above);
     hn::Store(above, d, out.above.get() + n);
-    hn::Store(cell(row(0, motion.centre_m.x), patch.west_m, patch.columns), d,
+    hn::Store(inside(hn::Add(column, Product(to_column, place)), patch.columns), d,
               out.column.get() + n);
-    hn::Store(cell(row(1, motion.centre_m.y), patch.south_m, patch.rows), d, out.row.get() + n);
+    hn::Store(inside(hn::Add(row, Product(to_row, place)), patch.rows), d, out.row.get() + n);
   }
   return hn::GetLane(hn::MinOfLanes(d, lowest));
 }

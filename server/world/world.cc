@@ -139,12 +139,20 @@ void World::FloatNewBodies() {
   }
 }
 
-void World::AddWaterUnder(Body& body) {
-  body.first_point = water_.points_m().size();
-  const Vec3d centre_m = body.stepped->state.pose.centre_m;
-  water_.Add({centre_m.x, centre_m.y}, body.model->hull.radius_m(),
-             body.model->spec.radiation == Radiation::kCoefficients);
-  body.point_count = water_.points_m().size() - body.first_point;
+std::size_t World::AddWaterUnder(const Body& body) {
+  const Pose& pose = body.stepped->state.pose;
+  const WetHull& hull = body.model->hull;
+  const Vec2d centre_m{pose.centre_m.x, pose.centre_m.y};
+  if (body.model->spec.radiation == Radiation::kGrid) {
+    return water_.Add(
+        {.centre_m = centre_m, .half_m = {hull.radius_m(), hull.radius_m()}, .is_in_grid = true});
+  }
+  // However it rolls or pitches.
+  const Vec3d reach = hull.reach_m();
+  const Quaternion heading = HeadingOf(pose.turn);
+  return water_.Add({.centre_m = centre_m,
+                     .half_m = {std::max(reach.x, reach.z), std::max(reach.y, reach.z)},
+                     .along = {1.0 - 2.0 * heading.z * heading.z, 2.0 * heading.w * heading.z}});
 }
 
 void World::FillWater() {
@@ -163,10 +171,12 @@ void World::FeelTheLayer() {
   felt_.assign(water_.points_m().size(), {});
   layer_.AddFelt(water_.points_m(), felt_);
   water_.AddInteraction(felt_);
+  auto first = felt_.begin();
+  std::size_t index = 0;
   for (auto& [id, body] : bodies_) {
-    if (body.model->spec.control != BodyControl::kByOwner) continue;
-    const auto first = felt_.begin() + static_cast<std::ptrdiff_t>(body.first_point);
-    body.felt.assign(first, first + static_cast<std::ptrdiff_t>(body.point_count));
+    const auto last = first + static_cast<std::ptrdiff_t>(water_.points_m(index++).size());
+    if (body.model->spec.control == BodyControl::kByOwner) body.felt.assign(first, last);
+    first = last;
   }
 }
 

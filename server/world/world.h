@@ -148,10 +148,9 @@ class World {
     bool is_to_float = false;    // on the waves of its first step, which it was spawned without
     Vec2d mean_m_per_s;          // through the water, over kRestMeanS
     Tick active_tick = 0;        // the last at which it wasn't at rest
-    std::vector<LumpedColumn> columns;             // at rest, for cells of columns_cell_m
-    double columns_cell_m = 0.0;                   // 0: not made yet
-    std::size_t first_point = 0, point_count = 0;  // of its water
-    std::vector<sea::InteractionFelt> felt;        // there in the last step; of owners' bodies
+    std::vector<LumpedColumn> columns;       // at rest, for cells of columns_cell_m
+    double columns_cell_m = 0.0;             // 0: not made yet
+    std::vector<sea::InteractionFelt> felt;  // there in the last step; of owners' bodies
   };
   // A region as it was asked for.
   struct AskedRegion {
@@ -185,7 +184,7 @@ class World {
   void NoteCommand(const wire::WorldCommand& command);
   void SampleSea(Tick tick, const std::shared_ptr<const sea::Components>& components);
   void FloatNewBodies();
-  void AddWaterUnder(Body& body);
+  std::size_t AddWaterUnder(const Body& body);
   void FillWater();
   void FeelTheLayer();
   Air AirAt(const sea::Recipe& recipe, SimTime time) const;

@@ -36,12 +36,12 @@ absl::StatusOr<std::vector<wire::BodyWrench>> World::SetPoses(
     const absl::Status set =
         rigid_.SetMotion(id, states[n].pose, states[n].velocity_m_per_s, states[n].spin_rad_per_s);
     ONESEA_CHECK(set.ok()) << set.ToString();
-    AddWaterUnder(body);
+    const std::size_t points = water_.points_m(AddWaterUnder(body)).size();
     // As the last step had it: layer and pressing hulls of one instant.
-    if (body.felt.size() == body.point_count) {
+    if (body.felt.size() == points) {
       felt_.insert(felt_.end(), body.felt.begin(), body.felt.end());
     } else {
-      felt_.resize(felt_.size() + body.point_count);
+      felt_.resize(felt_.size() + points);
     }
   }
   FillWater();

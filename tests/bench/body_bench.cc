@@ -16,7 +16,7 @@ constexpr double kRho = 1025.0;
 WaterPatch Sea(int bands) {
   WaterPatch patch;
   if (bands == 0) return patch;
-  patch.cell_m = 0.5, patch.west_m = -6, patch.south_m = -6;
+  patch.cell_m = 0.5, patch.corner_m = {-6, -6};
   patch.Resize(25, 25, bands);
   for (int b = 0; b < bands; ++b) {
     const RegularWave wave{.amplitude_m = 0.1 / (1 + b),
@@ -37,8 +37,8 @@ Vec3d ScalarForce(const TriangleMesh& mesh, const HullMotion& motion, const Wate
     double head[3], depth[3];
     for (int k = 0; k < 3; ++k) {
       corner[k] = motion.pose.centre_m + turn * mesh.vertices[t[k]];
-      const double u = (corner[k].x - patch.west_m) / patch.cell_m,
-                   v = (corner[k].y - patch.south_m) / patch.cell_m;
+      const double u = (corner[k].x - patch.corner_m.x) / patch.cell_m,
+                   v = (corner[k].y - patch.corner_m.y) / patch.cell_m;
       const int i = patch.bands ? std::clamp(static_cast<int>(u), 0, patch.columns - 2) : 0;
       const int j = patch.bands ? std::clamp(static_cast<int>(v), 0, patch.rows - 2) : 0;
       double field[kWaterBandsMax][4], height = 0;

@@ -12,6 +12,10 @@
 namespace onesea::world {
 namespace {
 
+WaterUnder Round(Vec2d centre_m, double radius_m) {
+  return {.centre_m = centre_m, .half_m = {radius_m, radius_m}};
+}
+
 class BodyWaterTest : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -31,8 +35,9 @@ class BodyWaterTest : public ::testing::Test {
 
 TEST_F(BodyWaterTest, SurfaceIsTheQueriedOne) {
   BodyWater water;
-  water.Add({10, -20}, 1.0);
-  const std::size_t boat = water.Add({-300, 155}, 3.0);
+  water.Add(Round({10, -20}, 1.0));
+  const std::size_t boat =
+      water.Add({.centre_m = {-300, 155}, .half_m = {3, 3}, .is_in_grid = true});
   IncidentSea sea = Sea();
   sea.level_m = 0.75;
   water.Fill(sea, {});
@@ -48,12 +53,33 @@ TEST_F(BodyWaterTest, SurfaceIsTheQueriedOne) {
   }
 }
 
+// A long hull's samples lie along it.
+TEST_F(BodyWaterTest, SamplesTurnWithTheHull) {
+  BodyWater water;
+  const Vec2d along{0.6, 0.8};
+  water.Add({.centre_m = {40, -10}, .half_m = {3, 1}, .along = along});
+  water.Fill(Sea(), {});
+  const WaterPatch& patch = water.patch(0);
+  EXPECT_EQ(patch.columns, 6);
+  EXPECT_EQ(patch.rows, 3);
+  const WaterSampler sampler(patch);
+  for (int n = -3; n <= 3; ++n) {
+    for (const double aside : {-1.0, 0.0, 1.0}) {
+      const Vec2d place{40 + n * along.x - aside * along.y, -10 + n * along.y + aside * along.x};
+      sea::SurfaceSample queried;
+      snapshot_->Sample({&place, 1}, {&queried, 1});
+      const WaterPoint point = SampleWater(sampler, {place.x, place.y, -1.0});
+      EXPECT_NEAR(point.depth_m, queried.height_m + 1.0, 0.05) << n << " " << aside;
+    }
+  }
+}
+
 TEST_F(BodyWaterTest, PressureFadesWithDepthAsTheExactSum) {
   BodyWater water;
   double error2 = 0.0, wave2 = 0.0, unfaded2 = 0.0;
   std::vector<Vec2d> places;
   for (int n = 0; n < 40; ++n) places.push_back({37.0 * n, 11.0 * n});
-  for (const Vec2d& place : places) water.Add(place, 1.0);
+  for (const Vec2d& place : places) water.Add(Round(place, 1.0));
   water.Fill(Sea(), {});
   for (std::size_t n = 0; n < places.size(); ++n) {
     const double depth_m = 4.0;
@@ -77,21 +103,20 @@ TEST_F(BodyWaterTest, PressureFadesWithDepthAsTheExactSum) {
 
 TEST_F(BodyWaterTest, InteractionLayerAddsItsHeightWithoutFading) {
   BodyWater water;
-  water.Add({0, 0}, 1.0);
+  water.Add(Round({0, 0}, 1.0));
   const std::vector<sea::InteractionFelt> interaction(water.points_m().size(), {0.25, {0.5, -0.1}});
   water.Fill({}, interaction);
   const WaterPoint point = SampleWater(WaterSampler(water.patch(0)), {0.1, 0.2, -3.0});
   EXPECT_NEAR(point.depth_m, 3.25, 1e-6);
   EXPECT_NEAR(point.head_m, 3.25, 1e-5);
-  EXPECT_NEAR(water.incident(0).At(0, 0), 0.0,
-              1e-9);  // what the hull displaces is counted from here
   EXPECT_NEAR(point.velocity_m_per_s.x, 0.5, 1e-5);
   EXPECT_NEAR(point.velocity_m_per_s.y, -0.1, 1e-5);
   EXPECT_EQ(point.velocity_m_per_s.z, 0.0);
   // A body whose own waves the layer carries must not be moved by their velocity.
   water.Clear();
-  water.Add({0, 0}, 1.0, /*in_flow=*/false);
+  water.Add({.centre_m = {}, .half_m = {1, 1}, .is_in_grid = true});
   water.Fill({}, interaction);
+  EXPECT_NEAR(water.incident(0).At(0, 0), 0.0, 1e-9);  // what it displaces is counted from here
   EXPECT_EQ(SampleWater(WaterSampler(water.patch(0)), {0.1, 0.2, -3.0}).velocity_m_per_s.x, 0.0);
 }
 
@@ -99,7 +124,7 @@ TEST_F(BodyWaterTest, MemoryIsUsedAgain) {
   BodyWater water;
   for (int tick = 0; tick < 3; ++tick) {
     water.Clear();
-    water.Add({1.0 * tick, 0}, 1.0);
+    water.Add(Round({1.0 * tick, 0}, 1.0));
     water.Fill(Sea(), {});
     EXPECT_EQ(water.points_m().size(), 25u);
   }
@@ -113,7 +138,7 @@ TEST_F(BodyWaterTest, TheBottomIsThatOfThePlace) {
                            .rows = 2,
                            .elevation_m = {-20, 0, -20, 0}};
   BodyWater water;
-  for (const double x : {-100.0, 0.0, 99.0, 300.0}) water.Add({x, 0}, 1.0);
+  for (const double x : {-100.0, 0.0, 99.0, 300.0}) water.Add(Round({x, 0}, 1.0));
   IncidentSea sea = Sea();
   sea.depth_m = 15.0;
   sea.level_m = 0.5;

@@ -25,8 +25,7 @@ struct RegularWave {
     patch.wavenumber_rad_per_m[band] = wavenumber_rad_per_m;
     for (int row = 0; row < patch.rows; ++row) {
       for (int column = 0; column < patch.columns; ++column) {
-        const double x = patch.west_m + column * patch.cell_m;
-        const double y = patch.south_m + row * patch.cell_m;
+        const auto [x, y] = patch.PlaceOf(column, row);
         const double phase =
             wavenumber_rad_per_m * (std::cos(to_rad) * x + std::sin(to_rad) * y) - w * time_s;
         float* at = patch.At(column, row) + 4 * band;
@@ -44,8 +43,7 @@ struct RegularWave {
 inline void PatchAround(Vec3d centre, double half_m, int samples, const RegularWave& wave,
                         double time_s, WaterPatch& patch) {
   patch.cell_m = 2.0 * half_m / (samples - 1);
-  patch.west_m = centre.x - half_m;
-  patch.south_m = centre.y - half_m;
+  patch.corner_m = {centre.x - half_m, centre.y - half_m};
   patch.depth_m = wave.depth_m;
   patch.Resize(samples, samples, 1);
   wave.Fill(time_s, patch, 0);

@@ -188,7 +188,7 @@ TEST(WetHull, FroudeKrylovFeelsTheBottom) {
 TEST(WaterPatch, SamplesAreTheDefinition) {
   for (const double depth : {std::numeric_limits<double>::infinity(), 6.0}) {
     WaterPatch patch;
-    patch.cell_m = 0.5, patch.west_m = -8, patch.south_m = -8, patch.depth_m = depth;
+    patch.cell_m = 0.5, patch.corner_m = {-8, -8}, patch.depth_m = depth;
     patch.level_m = 0.25, patch.current_m_per_s = {0.5, -0.25, 0};
     patch.Resize(33, 33, 9);
     std::array<RegularWave, 9> waves;
@@ -267,7 +267,7 @@ TEST(WetHull, DragIsQuadraticAndRelative) {
 // Nine bands of waves about the origin.
 WaterPatch Chop(double depth_m) {
   WaterPatch patch;
-  patch.cell_m = 0.5, patch.west_m = -6, patch.south_m = -6, patch.depth_m = depth_m;
+  patch.cell_m = 0.5, patch.corner_m = {-6, -6}, patch.depth_m = depth_m;
   patch.level_m = 0.1, patch.current_m_per_s = {0.3, 0.1, 0};
   patch.Resize(25, 25, 9);
   for (int b = 0; b < 9; ++b) {
@@ -310,6 +310,26 @@ TEST(WetHull, SameBitsOnEverySimdTarget) {
       EXPECT_GT(first[0], 0.0);
     }
   }
+}
+
+// Whatever way the samples lie: the same wave, the same forces.
+TEST(WetHull, ATurnedPatchIsTheSameWater) {
+  const WetHull hull(BoatMesh({}), {0.1, 0, 0.3});
+  WetScratch scratch;
+  const RegularWave wave{.amplitude_m = 0.3, .wavenumber_rad_per_m = 0.3, .to_rad = 0.7};
+  WaterPatch patch;
+  PatchAround({}, 8, 161, wave, 1.0, patch);
+  const WetForces straight = hull.Evaluate(kMoving, patch, kRho, {0.01, 0.8, 0.4, 0.3}, scratch);
+  patch.along = {0.8, -0.6};
+  patch.corner_m = {};
+  patch.corner_m = patch.PlaceOf(-80, -80);
+  wave.Fill(1.0, patch, 0);
+  const WetForces turned = hull.Evaluate(kMoving, patch, kRho, {0.01, 0.8, 0.4, 0.3}, scratch);
+  EXPECT_NEAR(Norm(turned.pressure_force_n - straight.pressure_force_n), 0.0,
+              1e-3 * Norm(straight.pressure_force_n));
+  EXPECT_NEAR(Norm(turned.drag_force_n - straight.drag_force_n), 0.0,
+              1e-3 * Norm(straight.drag_force_n));
+  EXPECT_NEAR(Norm(turned.water_velocity_m_per_s - straight.water_velocity_m_per_s), 0.0, 1e-3);
 }
 
 // What vertices get of the waves is SampleWater's, but for the waves being linear between the
