@@ -69,8 +69,10 @@ void FrameBuilder::FillPatches(render::RenderFrame& frame) const {
   for (std::size_t n = 0; n < versions_.size(); ++n) {
     const sea::InteractionField& field = *interaction_->fields[n];
     const sea::CellRect& cells = field.cells;
+    const auto foam =
+        field.foam != nullptr ? std::span<const float>(*field.foam) : std::span<const float>();
     frame.patches.push_back({cells.PlaceOf(cells.west, cells.south), cells.cell_m, cells.columns,
-                             cells.rows, versions_[n], field.height_m, field.foam});
+                             cells.rows, versions_[n], field.height_m, foam});
   }
 }
 

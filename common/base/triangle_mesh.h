@@ -12,6 +12,7 @@ struct TriangleMesh {
   std::vector<Vec3d> vertices;  ///< [m]
   /// Corners counter-clockwise seen from outside.
   std::vector<std::array<std::uint32_t, 3>> triangles;
+  friend bool operator==(const TriangleMesh&, const TriangleMesh&) = default;
 };
 
 /// Joins vertices of equal coordinates and drops triangles that lose a corner by it: STL files

@@ -1,9 +1,11 @@
 #include "common/sea/interaction_field.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "common/base/check.h"
+#include "hwy/cache_control.h"
 
 namespace onesea::sea {
 namespace {
@@ -108,6 +110,23 @@ bool Locate(const CellRect& cells, Vec2d place, Spot& spot) {
   return true;
 }
 
+void Prefetch(const CellRect& cells, std::span<const float> height_m, std::span<const float> more_m,
+              const InteractionFlow* flow, const Spot& spot) {
+  const int column = std::clamp(spot.column, 0, cells.columns - 1);
+  const auto at = [&](int row) {
+    return static_cast<std::size_t>(std::clamp(row, 0, cells.rows - 1)) * cells.columns + column;
+  };
+  for (int row = spot.row - 1; row < spot.row + 3; ++row) {
+    hwy::Prefetch(height_m.data() + at(row));
+    if (!more_m.empty()) hwy::Prefetch(more_m.data() + at(row));
+  }
+  if (flow == nullptr) return;
+  for (int row = spot.row; row < spot.row + 2; ++row) {
+    hwy::Prefetch(flow->x.data() + at(row));
+    hwy::Prefetch(flow->y.data() + at(row));
+  }
+}
+
 }  // namespace
 
 InteractionSample SampleInteraction(const InteractionField& field, Vec2d place) {
@@ -123,7 +142,7 @@ InteractionSample SampleInteraction(const InteractionField& field, Vec2d place) 
                        Value(Neighbours(field.cells, field.flow->y, spot), x, y),
                        Value(Neighbours(field.cells, field.flow->z, spot), x, y)};
   }
-  if (!field.foam.empty()) sample.foam = Bilinear(field.cells, field.foam, spot);
+  if (field.foam != nullptr) sample.foam = Bilinear(field.cells, *field.foam, spot);
   return sample;
 }
 
@@ -149,17 +168,29 @@ void AddFelt(const CellRect& cells, std::span<const float> height_m, std::span<c
   // Most places are far off; this is one cell more than Locate()'s reach.
   const Vec2d low = cells.PlaceOf(cells.west - 3, cells.south - 3);
   const Vec2d high = cells.PlaceOf(cells.east() + 2, cells.north() + 2);
-  for (std::size_t n = 0; n < places.size(); ++n) {
-    const Vec2d place = places[n];
-    if (!(place.x > low.x && place.x < high.x && place.y > low.y && place.y < high.y)) continue;
-    Spot spot;
-    if (!Locate(cells, place, spot)) continue;
-    Neighbours heights(cells, height_m, spot);
-    if (!more_m.empty()) heights.Add(cells, more_m, spot);
-    sum[n].height_m += Value(heights, Weights(spot.x), Weights(spot.y));
-    if (flow == nullptr) continue;
-    sum[n].velocity_m_per_s = sum[n].velocity_m_per_s +
+  constexpr std::size_t kBlock = 64;
+  std::array<std::size_t, kBlock> index;
+  std::array<Spot, kBlock> spots;
+  for (std::size_t first = 0; first < places.size(); first += kBlock) {
+    // The cells are all over the memory: ask for those of a block before any is read.
+    std::size_t count = 0;
+    for (std::size_t n = first; n < std::min(first + kBlock, places.size()); ++n) {
+      const Vec2d place = places[n];
+      if (!(place.x > low.x && place.x < high.x && place.y > low.y && place.y < high.y)) continue;
+      if (!Locate(cells, place, spots[count])) continue;
+      Prefetch(cells, height_m, more_m, flow, spots[count]);
+      index[count++] = n;
+    }
+    for (std::size_t n = 0; n < count; ++n) {
+      const Spot& spot = spots[n];
+      InteractionFelt& felt = sum[index[n]];
+      Neighbours heights(cells, height_m, spot);
+      if (!more_m.empty()) heights.Add(cells, more_m, spot);
+      felt.height_m += Value(heights, Weights(spot.x), Weights(spot.y));
+      if (flow == nullptr) continue;
+      felt.velocity_m_per_s = felt.velocity_m_per_s +
                               Vec2d{Bilinear(cells, flow->x, spot), Bilinear(cells, flow->y, spot)};
+    }
   }
 }
 

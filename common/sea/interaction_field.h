@@ -22,7 +22,8 @@ struct InteractionField {
   CellRect cells;
   std::vector<float> height_m;                  ///< up, relative to the mean water level
   std::shared_ptr<const InteractionFlow> flow;  ///< shared while it stays; null: not known
-  std::vector<float> foam;  ///< share of the surface that is white, 0..1; empty: nowhere
+  /// Share of the surface that is white, 0..1; shared while it stays; null: nowhere.
+  std::shared_ptr<const std::vector<float>> foam;
 };
 
 /// All regions at one instant; never changes once made, so threads may share it.

@@ -30,9 +30,17 @@ WorldUpdate WorldEncoder::Encode(const WorldState& state) {
     if (regions_[n].id <= known && (updates_ + regions_[n].id) % every != 0) {
       fields_.push_back({regions_[n], {}, {}});
     } else {
-      fields_.push_back({regions_[n], snapshot.fields[n]->height_m, snapshot.fields[n]->foam});
+      const sea::InteractionField& field = *snapshot.fields[n];
+      std::shared_ptr<const std::vector<float>>& sent = foams_[regions_[n].id];
+      const bool is_new = field.foam != nullptr && field.foam != sent;
+      sent = field.foam;
+      fields_.push_back({regions_[n], field.height_m,
+                         is_new ? std::span<const float>(*field.foam) : std::span<const float>()});
     }
   }
+  std::erase_if(foams_, [&](const auto& sent) {
+    return std::ranges::none_of(regions_, [&](const auto& r) { return r.id == sent.first; });
+  });
   ++updates_;
   WorldUpdate update;
   update.tick = tick_ = state.tick;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -64,6 +65,7 @@ class WorldEncoder {
   std::uint32_t last_id_ = 0;
   std::vector<RegionLayout> regions_, former_;
   std::vector<TileField> fields_;
+  std::map<std::uint32_t, std::shared_ptr<const std::vector<float>>> foams_;  // by region, as sent
   TileEncoder tiles_;
   BodyEncoder bodies_;
 };

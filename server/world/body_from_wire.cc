@@ -39,8 +39,6 @@ absl::StatusOr<BodySpec> FromWire(const wire::BodyDescription& from) {
     return absl::InvalidArgumentError("shape, mass_kg: both are needed");
   }
   BodySpec spec;
-  spec.name = from.name;
-  spec.owner = from.owner;
   if (from.control) spec.control = *from.control;
   if (from.radiation) spec.radiation = *from.radiation;
   ONESEA_ASSIGN_OR_RETURN(spec.shape, ShapeOf(*from.shape));

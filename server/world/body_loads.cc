@@ -226,7 +226,8 @@ bool AdvanceVelocity(const BodyModel& model, const BodyLoads& loads, Vec3d force
   // Along the drag's own direction implicitly: it can stop the body, not turn it back.
   Vec6 drag = step_s * loads.drag;
   Vec6 answer = drag;
-  bool good = SolveInPlace(left, answer);
+  const Elimination mass(left);
+  bool good = mass.Solve(answer);
   const double taken = -Dot(relative, drag), overshoot = Dot(answer, drag);
   if (good && overshoot > 0.0) {
     const double room = taken > 0.0 ? taken : Dot(relative, left * relative);
@@ -237,7 +238,7 @@ bool AdvanceVelocity(const BodyModel& model, const BodyLoads& loads, Vec3d force
                added * (loads.water_velocity + step_s * loads.water_rate) +
                step_s * (on_relative * loads.water_velocity) + step_s * (loads.applied + external) +
                drag;
-  good = good && SolveInPlace(left, right);
+  good = good && mass.Solve(right);
 
   Vec3d linear = turn * Linear(right), angular = turn * Angular(right);
   Cut(kBodySpeedMaxMPerS, linear);
@@ -270,10 +271,7 @@ void AdvancePose(double step_s, BodyState& state) {
 int SubSteps(const BodyModel& model, double step_s) {
   constexpr double kPhaseMax = 0.5;  // of the bare body's heave in one sub-step
   constexpr int kSubStepsMax = 8;
-  const Vec3d size = model.solid.high_m - model.solid.low_m;
-  const double area = model.solid.volume_m3 / std::min({size.x, size.y, size.z});
-  const double stiffness = model.density_kg_per_m3 * sea::kGravity * area;
-  const double phase = step_s * std::sqrt(stiffness / model.spec.mass_kg);
+  const double phase = step_s * model.bare_heave_rad_per_s;
   return std::clamp(static_cast<int>(std::ceil(phase / kPhaseMax)), 1, kSubStepsMax);
 }
 

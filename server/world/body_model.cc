@@ -80,6 +80,10 @@ absl::StatusOr<std::shared_ptr<const BodyModel>> MakeBodyModel(BodySpec spec,
                                                      .hull = std::move(hull),
                                                      .rest = rest});
   const BodySpec& given = model->spec;
+  const Vec3d size = solid.high_m - solid.low_m;
+  const double area_m2 = solid.volume_m3 / std::min({size.x, size.y, size.z});
+  model->bare_heave_rad_per_s =
+      std::sqrt(density_kg_per_m3 * sea::kGravity * area_m2 / given.mass_kg);
   Mat3d inertia = solid.inertia_per_kg;
   for (double& value : inertia.m) value *= given.mass_kg;
   model->rigid_mass = RigidMass(given.mass_kg, given.inertia_kg_m2.value_or(inertia));

@@ -123,14 +123,7 @@ absl::Status CheckGear(const BodySpec& spec) {
   return absl::OkStatus();
 }
 
-absl::Status CheckNames(const BodySpec& spec) {
-  for (const auto& [field, value] :
-       {std::pair("name", &spec.name), std::pair("owner", &spec.owner)}) {
-    if (value->size() > kBodyNameLengthMax) {
-      return absl::InvalidArgumentError(
-          absl::StrCat(field, " has ", value->size(), " bytes, at most ", kBodyNameLengthMax));
-    }
-  }
+absl::Status CheckKinds(const BodySpec& spec) {
   if (spec.control != BodyControl::kIntegrated && spec.control != BodyControl::kByOwner) {
     return absl::InvalidArgumentError(
         absl::StrCat("control = ", static_cast<int>(spec.control), " is unknown"));
@@ -146,7 +139,7 @@ absl::Status CheckNames(const BodySpec& spec) {
 
 absl::Status ValidateBodySpec(const BodySpec& spec) {
   for (const absl::Status& s :
-       {CheckNames(spec), CheckInRange("mass_kg", spec.mass_kg, kBodyMassMinKg, kBodyMassMaxKg),
+       {CheckKinds(spec), CheckInRange("mass_kg", spec.mass_kg, kBodyMassMinKg, kBodyMassMaxKg),
         CheckShape(spec.shape), CheckGear(spec)}) {
     if (!s.ok()) return s;
   }

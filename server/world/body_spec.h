@@ -28,11 +28,10 @@ struct BodyShape {
   double radius_m = 0.5;        ///< of round ones
   double length_m = 1.0;        ///< of a cylinder, and of a capsule without its ends
   TriangleMesh mesh{};          ///< of kMesh
+  friend bool operator==(const BodyShape&, const BodyShape&) = default;
 };
 
 struct BodySpec {
-  std::string name;   ///< at most 64 bytes
-  std::string owner;  ///< who holds the lease; at most 64 bytes; may be empty
   BodyControl control = BodyControl::kIntegrated;
   Radiation radiation = Radiation::kCoefficients;
   BodyShape shape;
@@ -59,6 +58,7 @@ struct BodySpec {
   std::vector<wire::Rudder> rudders;
   double contact_friction = 0.4;     ///< [0, 2]
   double contact_restitution = 0.1;  ///< [0, 1]
+  friend bool operator==(const BodySpec&, const BodySpec&) = default;
 };
 
 /// OK, or InvalidArgument naming field, value and limit. Matrices must be symmetric, damping must
@@ -75,7 +75,8 @@ struct BodyModel {
   Vec3d centre_of_mass_m;  ///< body frame
   WetHull hull;
   Hydrostatics rest;
-  Mat6 rigid_mass{};  ///< mass and inertia about the centre of mass
+  double bare_heave_rad_per_s = 0.0;  ///< of its mass alone on the largest water plane
+  Mat6 rigid_mass{};                  ///< mass and inertia about the centre of mass
   Mat6 added_at_rest{}, added_submerged{};
   Stern stern = {};
   Mat6 radiation_damping{}, viscous_damping{};

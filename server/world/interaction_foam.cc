@@ -24,16 +24,17 @@ void InteractionFoam::Advance(double span_s, std::span<const float> height_m,
   any_ = false;
   for (int row = 0; row < cells_.rows; ++row) {
     const std::size_t at = static_cast<std::size_t>(row) * cells_.columns;
-    float highest = 0.0f, most = 0.0f;
+    int is_high = 0, is_white = 0;
     for (int n = 0; n < cells_.columns; ++n) {
-      highest = std::max(highest, std::abs(height_m[at + n]));
-      most = std::max(most, shares_[at + n]);
+      is_high |= static_cast<int>(!(std::abs(height_m[at + n]) < limit_m));
+      is_white |= static_cast<int>(shares_[at + n] > 0.0f);
     }
-    foam[row] = most > 0.0f;
-    high[row] = !(highest < limit_m);
+    foam[row] = is_white != 0;
+    high[row] = is_high != 0;
     any_ = any_ || foam[row] || high[row];
   }
   if (!any_) return;
+  changed_ = true;
   float fastest = 0.0f;
   for (const float speed : flow.y) fastest = std::max(fastest, std::abs(speed));
   const double cells = fastest * span_s / cells_.cell_m;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "common/sea/cell_rect.h"
@@ -28,12 +29,14 @@ class InteractionFoam {
   void Advance(double span_s, std::span<const float> height_m, const sea::InteractionFlow& flow);
 
   std::span<float> shares() {
-    any_ = true;  // for all that is known here
+    any_ = changed_ = true;  // for all that is known here
     return shares_;
   }
   std::span<const float> shares() const { return shares_; }
   /// False: there is none anywhere.
   bool any() const { return any_; }
+  /// Whether it may have changed since this was last asked.
+  bool TakeChanged() { return std::exchange(changed_, false); }
 
  private:
   sea::CellRect cells_;
@@ -42,7 +45,7 @@ class InteractionFoam {
                   const sea::InteractionFlow& flow);
 
   std::vector<float> shares_, next_;
-  bool any_ = false;
+  bool any_ = false, changed_ = false;
 };
 
 }  // namespace onesea::world

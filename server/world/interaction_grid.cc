@@ -15,7 +15,7 @@ namespace {
 
 // Arrays of one region that are written again: the present, what queries hold, and the past.
 constexpr std::size_t kKept = 32;
-constexpr float kHeightMaxM = 1e4f;  // of the mean; no wave is higher than the sea is deep
+constexpr float kHeightMaxM = 1e4f;  // no wave is higher than the sea is deep
 // Solvers that step every tick have their flow looked at every so many.
 constexpr int kFlowTicks = 3;
 
@@ -157,11 +157,12 @@ void InteractionGrid::AdvanceFoam(double span_s) {
   foam_.Advance(span_s, solver_->height_m(), *Flow());
 }
 
-// Written so that NaN, which every sum passes on, is insane.
 bool InteractionGrid::CalmTheInsane() {
-  float sum = 0.0f;
-  for (const float height : solver_->height_m()) sum += std::abs(height);
-  if (sum < kHeightMaxM * static_cast<float>(region_.cells.cells())) return false;
+  int insane = 0;
+  for (const float height : solver_->height_m()) {
+    insane |= static_cast<int>(!(std::abs(height) < kHeightMaxM));  // NaN is, too
+  }
+  if (insane == 0) return false;
   solver_->Restore(calm_);
   is_flow_due_ = true;
   std::fill(before_m_.begin(), before_m_.end(), 0.0f);
@@ -192,9 +193,19 @@ std::shared_ptr<const sea::InteractionField> InteractionGrid::Publish() {
   const auto height = height_m();
   field->height_m.assign(height.begin(), height.end());
   field->flow = Flow();
-  const auto foam = std::as_const(foam_).shares();
-  field->foam.assign(foam.begin(), foam_.any() ? foam.end() : foam.begin());
+  field->foam = PublishedFoam();
   return field;
+}
+
+std::shared_ptr<const std::vector<float>> InteractionGrid::PublishedFoam() {
+  if (!foam_.any()) return nullptr;
+  if (foam_.TakeChanged()) {
+    const std::shared_ptr<std::vector<float>> copy = Spare(foams_);
+    const auto shares = std::as_const(foam_).shares();
+    copy->assign(shares.begin(), shares.end());
+    published_foam_ = copy;
+  }
+  return published_foam_;
 }
 
 RegionState InteractionGrid::State() const {

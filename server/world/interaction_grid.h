@@ -76,6 +76,7 @@ class InteractionGrid {
   void StepSolver();
   void FindBetween(int tick);
   const std::shared_ptr<const sea::InteractionFlow>& Flow();
+  std::shared_ptr<const std::vector<float>> PublishedFoam();
   std::span<const float> height_m() const {
     return ticks_ > 1 ? std::span<const float>(between_m_) : solver_->height_m();
   }
@@ -92,6 +93,8 @@ class InteractionGrid {
   std::vector<std::shared_ptr<sea::InteractionFlow>> flows_;    // likewise
   std::shared_ptr<const sea::InteractionFlow> flow_;            // the last; null: not made yet
   bool is_flow_due_ = true;
+  std::vector<std::shared_ptr<std::vector<float>>> foams_;  // likewise
+  std::shared_ptr<const std::vector<float>> published_foam_;
 };
 
 }  // namespace onesea::world

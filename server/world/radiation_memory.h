@@ -22,6 +22,7 @@ struct RadiationKernel {
   double Force(std::span<const double> history_m_per_s) const;
   /// That part as a damping: trapezoid's half step at s = 0.
   double Damping() const { return kernel.empty() ? 0.0 : 0.5 * step_s * kernel[0]; }
+  friend bool operator==(const RadiationKernel&, const RadiationKernel&) = default;
 };
 
 /// From damping at ascending frequencies; beyond the last it falls as its trend (ω⁻³) says.

@@ -42,9 +42,6 @@ struct Mat3d {
   friend bool operator==(const Mat3d&, const Mat3d&) = default;
 };
 
-inline bool IsFinite(const Quaternion& q) {
-  return std::isfinite(q.w) && std::isfinite(q.x) && std::isfinite(q.y) && std::isfinite(q.z);
-}
 inline Mat3d ToMatrix(const Quaternion& q) {
   return {
       {1 - 2 * (q.y * q.y + q.z * q.z), 2 * (q.x * q.y - q.w * q.z), 2 * (q.x * q.z + q.w * q.y),
@@ -103,29 +100,47 @@ inline double Dot(const Vec6& a, const Vec6& b) {
   return sum;
 }
 
-/// Solves a x = b by elimination with row pivots. False where `a` is singular or not finite; then
-/// `b` is undefined. `b` becomes x.
-inline bool SolveInPlace(Mat6 a, Vec6& b) {
-  for (int column = 0; column < 6; ++column) {
-    int pivot = column;
-    for (int row = column + 1; row < 6; ++row) {
-      if (std::abs(a[row][column]) > std::abs(a[pivot][column])) pivot = row;
+/// A matrix taken apart once for several right sides: elimination with row pivots.
+class Elimination {
+ public:
+  explicit Elimination(const Mat6& matrix) : a_(matrix) {
+    for (int column = 0; column < 6; ++column) {
+      int pivot = column;
+      for (int row = column + 1; row < 6; ++row) {
+        if (std::abs(a_[row][column]) > std::abs(a_[pivot][column])) pivot = row;
+      }
+      if (!(std::abs(a_[pivot][column]) > 0.0)) return;
+      std::swap(a_[pivot], a_[column]);
+      pivot_[column] = pivot;
+      for (int row = column + 1; row < 6; ++row) {
+        const double factor = a_[row][column] / a_[column][column];
+        for (int k = column + 1; k < 6; ++k) a_[row][k] -= factor * a_[column][k];
+        a_[row][column] = factor;
+      }
     }
-    if (!(std::abs(a[pivot][column]) > 0.0)) return false;
-    std::swap(a[pivot], a[column]);
-    std::swap(b[pivot], b[column]);
-    for (int row = column + 1; row < 6; ++row) {
-      const double factor = a[row][column] / a[column][column];
-      for (int k = column; k < 6; ++k) a[row][k] -= factor * a[column][k];
-      b[row] -= factor * b[column];
+    good_ = true;
+  }
+  /// `b` becomes x of a x = b. False where `a` is singular or x not finite; then `b` is undefined.
+  bool Solve(Vec6& b) const {
+    if (!good_) return false;
+    for (int column = 0; column < 6; ++column) std::swap(b[pivot_[column]], b[column]);
+    for (int column = 0; column < 6; ++column) {
+      for (int row = column + 1; row < 6; ++row) b[row] -= a_[row][column] * b[column];
     }
+    for (int row = 5; row >= 0; --row) {
+      for (int k = row + 1; k < 6; ++k) b[row] -= a_[row][k] * b[k];
+      b[row] /= a_[row][row];
+      if (!std::isfinite(b[row])) return false;
+    }
+    return true;
   }
-  for (int row = 5; row >= 0; --row) {
-    for (int k = row + 1; k < 6; ++k) b[row] -= a[row][k] * b[k];
-    b[row] /= a[row][row];
-    if (!std::isfinite(b[row])) return false;
-  }
-  return true;
-}
+
+ private:
+  Mat6 a_;  // factors below the diagonal
+  std::array<int, 6> pivot_{};
+  bool good_ = false;
+};
+
+inline bool SolveInPlace(const Mat6& a, Vec6& b) { return Elimination(a).Solve(b); }
 
 }  // namespace onesea::world

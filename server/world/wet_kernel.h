@@ -3,7 +3,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 #include "common/sea/aligned.h"
 #include "server/world/rigid_math.h"
@@ -49,7 +48,8 @@ struct WetVertices {
   sea::AlignedArray<double> depth, head, rx, ry, rz;
   sea::AlignedArray<double> above, column, row;  ///< place: above z = 0, and in cells of the patch
   WaterProfile profile;
-  std::vector<std::int64_t> crossing;  ///< triangles that cross the surface
+  std::size_t crossings = 0, triangle_capacity = 0;
+  sea::AlignedArray<std::int64_t> crossing;  ///< triangles that cross the surface
 
   void Reserve(const WetMesh& mesh);
 };

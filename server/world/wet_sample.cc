@@ -312,7 +312,10 @@ void WetVertices::Reserve(const WetMesh& mesh) {
     }
     capacity = mesh.vertices;
   }
-  crossing.reserve(mesh.triangles + kWetBlock);
+  if (triangle_capacity < mesh.triangles) {
+    crossing = sea::AllocateZeros<std::int64_t>(mesh.triangles + kWetBlock);  // whole vectors
+    triangle_capacity = mesh.triangles;
+  }
 }
 
 void SampleVertices(const WetMesh& mesh, const WetMotion& motion, const WaterSampler& water,

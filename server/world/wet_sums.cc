@@ -6,6 +6,8 @@
 #define HWY_TARGET_INCLUDE "server/world/wet_sums.cc"
 #include "hwy/foreach_target.h"
 //
+#include <algorithm>
+
 #include "hwy/highway.h"
 #include "server/world/wet_kernel.h"
 #include "server/world/wet_vector-inl.h"
@@ -95,50 +97,43 @@ HWY_INLINE void AddTriangles(const Lanes3& t, const WetCoefficients& coefficient
   Accumulate3(sums, kDragTorque, lane, CrossOf(centre, force));
 }
 
-// Triangles that are wholly under water; finds those that cross the surface. Returns how many.
-int SumSubmerged(const WetMesh& mesh, const WetCoefficients& coefficients, WetVertices& w,
-                 double (*sums)[kWetBlock]) {
+// Triangles that are wholly under water; lists those that cross the surface. Returns how many.
+std::size_t SumSubmerged(const WetMesh& mesh, const WetCoefficients& coefficients, WetVertices& w,
+                         double (*sums)[kWetBlock]) {
   const D d;
   const hn::RebindToSigned<D> di;
-  HWY_ALIGN double least[kWetBlock], most[kWetBlock];
-  int whole = 0;
-  w.crossing.clear();
-  for (std::size_t first = 0; first < mesh.triangles; first += kWetBlock) {
-    for (std::size_t n = 0; n < kWetBlock; n += hn::Lanes(d)) {
-      const std::size_t at = first + n;
-      const Indices index[3] = {hn::Load(di, mesh.corner[0].get() + at),
-                                hn::Load(di, mesh.corner[1].get() + at),
-                                hn::Load(di, mesh.corner[2].get() + at)};
-      const V depths[3] = {At(w.depth, index[0]), At(w.depth, index[1]), At(w.depth, index[2])};
-      const V low = hn::Min(hn::Min(depths[0], depths[1]), depths[2]);
-      const V high = hn::Max(hn::Max(depths[0], depths[1]), depths[2]);
-      hn::Store(low, d, least + n);
-      hn::Store(high, d, most + n);
-      const auto wet = hn::Gt(low, hn::Zero(d));
-      if (hn::AllFalse(d, wet)) continue;
-      Lanes3 t;
-      t.area = hn::IfThenElseZero(wet, hn::Load(d, mesh.area.get() + at));
-      t.normal = Vec3v(hn::Load(d, mesh.normal_x.get() + at), hn::Load(d, mesh.normal_y.get() + at),
-                       hn::Load(d, mesh.normal_z.get() + at));
-      for (int k = 0; k < 3; ++k) {
-        Corner& c = t.corner[k];
-        c.place = Vec3v(hn::Load(d, mesh.corner_x[k].get() + at),
-                        hn::Load(d, mesh.corner_y[k].get() + at),
-                        hn::Load(d, mesh.corner_z[k].get() + at));
-        c.relative = Vec3v(At(w.rx, index[k]), At(w.ry, index[k]), At(w.rz, index[k]));
-        c.depth = depths[k];
-        c.head = At(w.head, index[k]);
-      }
-      AddTriangles(t, coefficients, n, sums);
+  std::size_t whole = 0;
+  w.crossings = 0;
+  for (std::size_t at = 0; at < mesh.triangles; at += hn::Lanes(d)) {
+    const Indices index[3] = {hn::Load(di, mesh.corner[0].get() + at),
+                              hn::Load(di, mesh.corner[1].get() + at),
+                              hn::Load(di, mesh.corner[2].get() + at)};
+    const V depths[3] = {At(w.depth, index[0]), At(w.depth, index[1]), At(w.depth, index[2])};
+    const V high = hn::Max(hn::Max(depths[0], depths[1]), depths[2]);
+    const V area = hn::Load(d, mesh.area.get() + at);
+    const auto touched = hn::And(hn::Gt(high, hn::Zero(d)), hn::Gt(area, hn::Zero(d)));
+    if (hn::AllFalse(d, touched)) continue;
+    const V low = hn::Min(hn::Min(depths[0], depths[1]), depths[2]);
+    const auto wet = hn::And(touched, hn::Gt(low, hn::Zero(d)));
+    w.crossings += hn::CompressStore(hn::Iota(di, static_cast<std::int64_t>(at)),
+                                     hn::RebindMask(di, hn::AndNot(wet, touched)), di,
+                                     w.crossing.get() + w.crossings);
+    if (hn::AllFalse(d, wet)) continue;
+    whole += hn::CountTrue(d, wet);
+    Lanes3 t;
+    t.area = hn::IfThenElseZero(wet, area);
+    t.normal = Vec3v(hn::Load(d, mesh.normal_x.get() + at), hn::Load(d, mesh.normal_y.get() + at),
+                     hn::Load(d, mesh.normal_z.get() + at));
+    for (int k = 0; k < 3; ++k) {
+      Corner& c = t.corner[k];
+      c.place =
+          Vec3v(hn::Load(d, mesh.corner_x[k].get() + at), hn::Load(d, mesh.corner_y[k].get() + at),
+                hn::Load(d, mesh.corner_z[k].get() + at));
+      c.relative = Vec3v(At(w.rx, index[k]), At(w.ry, index[k]), At(w.rz, index[k]));
+      c.depth = depths[k];
+      c.head = At(w.head, index[k]);
     }
-    for (std::size_t n = 0; n < kWetBlock; ++n) {
-      if (mesh.area[first + n] == 0.0 || !(most[n] > 0.0)) continue;
-      if (least[n] > 0.0) {
-        ++whole;
-      } else {
-        w.crossing.push_back(static_cast<std::int64_t>(first + n));
-      }
-    }
+    AddTriangles(t, coefficients, at % kWetBlock, sums);
   }
   return whole;
 }
@@ -206,12 +201,12 @@ void SumCrossing(const WetMesh& mesh, const WetCoefficients& coefficients, WetVe
                  double (*sums)[kWetBlock]) {
   const D d;
   const hn::RebindToSigned<D> di;
-  const std::size_t count = w.crossing.size();
+  const std::size_t count = w.crossings;
   if (count == 0) return;
-  const auto lanes = static_cast<std::int64_t>(hn::Lanes(d));
-  w.crossing.resize(WholeBlocks(count), w.crossing.back());  // once more, without area
-  for (std::size_t at = 0; at < count; at += static_cast<std::size_t>(lanes)) {
-    const Indices triangle = hn::LoadU(di, w.crossing.data() + at);
+  // The last block is filled up with its last triangle, without area.
+  std::fill(w.crossing.get() + count, w.crossing.get() + WholeBlocks(count), w.crossing[count - 1]);
+  for (std::size_t at = 0; at < count; at += hn::Lanes(d)) {
+    const Indices triangle = hn::Load(di, w.crossing.get() + at);
     const auto there = hn::RebindMask(d, hn::Lt(hn::Iota(di, static_cast<std::int64_t>(at)),
                                                 hn::Set(di, static_cast<std::int64_t>(count))));
     const V area = hn::IfThenElseZero(there, At(mesh.area, triangle));
@@ -237,7 +232,6 @@ void SumCrossing(const WetMesh& mesh, const WetCoefficients& coefficients, WetVe
     t.corner[2] = on_q;
     AddTriangles(t, coefficients, at % kWetBlock, sums);
   }
-  w.crossing.resize(count);
 }
 
 // Eight parts in one order, whatever the vectors.
@@ -248,10 +242,10 @@ HWY_INLINE double Joined(const double (&part)[kWetBlock]) {
 int SumWettedOf(const WetMesh& mesh, const WetCoefficients& coefficients, WetVertices& vertices,
                 std::array<double, kWetSums>& out) {
   HWY_ALIGN double sums[kWetSums][kWetBlock] = {};
-  const int whole = SumSubmerged(mesh, coefficients, vertices, sums);
+  const std::size_t whole = SumSubmerged(mesh, coefficients, vertices, sums);
   SumCrossing(mesh, coefficients, vertices, sums);
   for (int s = 0; s < kWetSums; ++s) out[s] = Joined(sums[s]);
-  return whole + static_cast<int>(vertices.crossing.size());
+  return static_cast<int>(whole + vertices.crossings);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -225,12 +225,14 @@ void World::PressBody(Body& body, const HeightPatch& incident) {
                forcing->pressure_head_m, body.pressed_share);
   }
   const Vec3d velocity = state.velocity_m_per_s;
-  const double speed =
-      std::hypot(velocity.x - options_.current_m_per_s.x, velocity.y - options_.current_m_per_s.y);
-  if (speed > kFoamSpeedMPerS && wet_m3 > 0.0) {
+  const Vec2d through{velocity.x - options_.current_m_per_s.x,
+                      velocity.y - options_.current_m_per_s.y};
+  const double speed = std::sqrt(through.x * through.x + through.y * through.y);
+  // As often as foam moves, so that it stays the same object in between.
+  if (tick_ % kFoamSteps == 0 && speed > kFoamSpeedMPerS && wet_m3 > 0.0) {
     const double strength =
         std::min(1.0, (speed - kFoamSpeedMPerS) / (kFullFoamSpeedMPerS - kFoamSpeedMPerS));
-    layer_.AddFoam(place, 0.6 * model.hull.radius_m(), 4.0 * strength * step_s_);
+    layer_.AddFoam(place, 0.6 * model.hull.radius_m(), 4.0 * strength * kFoamSteps * step_s_);
   }
 }
 

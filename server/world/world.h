@@ -176,6 +176,7 @@ class World {
     if (options_.after_stage) options_.after_stage(stage);
   }
   RegionAsk AskFor(std::uint32_t id, const wire::RegionSpec& spec) const;
+  std::shared_ptr<const BodyModel> Known(const std::shared_ptr<const BodyModel>& model) const;
   absl::Status PlaceRegions();
   bool IsAtRest(const wire::RegionSpec& region) const;
   void WakeRegions();

@@ -7,6 +7,7 @@
 #include "absl/strings/str_cat.h"
 #include "common/base/check.h"
 #include "common/base/limits.h"
+#include "common/base/real_math.h"
 #include "common/sea/constants.h"
 #include "server/world/body_from_wire.h"
 #include "server/world/body_presets.h"
@@ -33,7 +34,7 @@ Dome DomeOf(double energy_j, double depth_m) {
     return std::sqrt(std::sqrt(160.0 * wave_energy_j / (rho_g * std::numbers::pi)));
   };
   const double at_surface_m = radius_of(kWaveShare * energy_j);
-  const double fade = std::exp(-depth_m / at_surface_m);
+  const double fade = real::Exp(-depth_m / at_surface_m);
   const double radius_m = radius_of(kWaveShare * energy_j * fade);
   return {radius_m, std::numbers::pi / 3.0 * radius_m * radius_m * 0.25 * radius_m};
 }
@@ -76,6 +77,17 @@ absl::Status World::Begin(const wire::WorldSpec& spec) {
   return absl::OkStatus();
 }
 
+// Bodies of one kind share a model: what a step reads of all of them then stays in the caches.
+std::shared_ptr<const BodyModel> World::Known(const std::shared_ptr<const BodyModel>& model) const {
+  for (const auto& [id, body] : bodies_) {
+    if (body.model->spec == model->spec &&
+        body.model->density_kg_per_m3 == model->density_kg_per_m3) {
+      return body.model;
+    }
+  }
+  return model;
+}
+
 absl::StatusOr<std::uint32_t> World::Spawn(const PreparedBody& prepared,
                                            const wire::Kinematics& start) {
   BodyState state = FromWire(start);
@@ -86,10 +98,11 @@ absl::StatusOr<std::uint32_t> World::Spawn(const PreparedBody& prepared,
         LevelAt(TimeOfTick(tick_, options_.tick_rate_hz)) +
         (prepared.model->rest.floats ? prepared.model->rest.centre_height_m : 0.0);
   }
-  ONESEA_ASSIGN_OR_RETURN(const BodyId id, rigid_.Add(prepared.model, state));
+  const std::shared_ptr<const BodyModel> model = Known(prepared.model);
+  ONESEA_ASSIGN_OR_RETURN(const BodyId id, rigid_.Add(model, state));
   const auto wire_id = static_cast<std::uint32_t>(id);
   Body& body = bodies_[wire_id];
-  body.model = prepared.model;
+  body.model = model;
   body.stepped = rigid_.FindBody(id);
   body.mesh = prepared.mesh;
   body.is_to_float = is_to_float;

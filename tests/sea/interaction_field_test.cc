@@ -24,10 +24,10 @@ InteractionField Field(double west_m, double height_m, double k) {
       flow->x.push_back(static_cast<float>(place.x));
       flow->y.push_back(static_cast<float>(place.y));
       flow->z.push_back(0.25f);
-      field.foam.push_back(0.7f);
     }
   }
   field.flow = flow;
+  field.foam = std::make_shared<const std::vector<float>>(field.cells.cells(), 0.7f);
   return field;
 }
 

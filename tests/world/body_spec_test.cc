@@ -65,7 +65,6 @@ TEST(BodySpec, RefusalsNameTheField) {
   named("thrusters (count)", [](BodySpec& s) { s.thrusters.resize(9, s.thrusters[0]); });
   named("rudders[0].behind_thruster", [](BodySpec& s) { s.rudders[0].behind_thruster = 1; });
   named("rudders[1].aspect_ratio", [](BodySpec& s) { s.rudders[1].aspect_ratio = 0; });
-  named("name has", [](BodySpec& s) { s.name = std::string(65, 'x'); });
   named("control", [](BodySpec& s) { s.control = static_cast<BodyControl>(0); });
   named("radiation", [](BodySpec& s) { s.radiation = static_cast<Radiation>(9); });
   named("heave_memory", [](BodySpec& s) { s.heave_memory.kernel = {1, kNan}; });

@@ -142,7 +142,8 @@ TEST(InteractionLayer, FoamGrowsWhereItIsSteepDriftsAndFades) {
   for (int n = 0; n < 120; ++n) {
     layer.Step();
     const auto snapshot = layer.Snapshot(0);
-    for (const float share : snapshot->fields[0]->foam) {
+    if (snapshot->fields[0]->foam == nullptr) continue;
+    for (const float share : *snapshot->fields[0]->foam) {
       ASSERT_GE(share, 0.0f);
       ASSERT_LE(share, 1.0f);
       greatest = std::max(greatest, static_cast<double>(share));
