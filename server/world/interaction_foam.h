@@ -25,7 +25,7 @@ class InteractionFoam {
 
   /// Carries foam with the water (semi-Lagrangian, bilinear), lets it decay and makes new where the
   /// surface is steep. Rows without foam where the water is too calm to make any cost next to
-  /// nothing, all others about 4 µs each 256 cells. Pre: one number for each of these cells.
+  /// nothing, others half a microsecond each 256 cells. Pre: one number for each of these cells.
   void Advance(double span_s, std::span<const float> height_m, const sea::InteractionFlow& flow);
 
   std::span<float> shares() {
@@ -45,6 +45,7 @@ class InteractionFoam {
                   const sea::InteractionFlow& flow);
 
   std::vector<float> shares_, next_;
+  std::vector<float> heights_m_;  // of one row
   bool any_ = false, changed_ = false;
 };
 

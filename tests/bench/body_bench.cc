@@ -16,8 +16,9 @@ constexpr double kRho = 1025.0;
 WaterPatch Sea(int bands) {
   WaterPatch patch;
   if (bands == 0) return patch;
-  patch.cell_m = 0.5, patch.corner_m = {-6, -6};
-  patch.Resize(25, 25, bands);
+  // As the world samples the water around a hull of 2 m radius.
+  patch.cell_m = 0.92, patch.corner_m = {-2.3, -2.3};
+  patch.Resize(6, 6, bands);
   for (int b = 0; b < bands; ++b) {
     const RegularWave wave{.amplitude_m = 0.1 / (1 + b),
                            .wavenumber_rad_per_m = 0.05 * std::pow(1.6, b),
