@@ -34,7 +34,8 @@ class FakeWorld {
     }
     auto field = std::make_shared<sea::InteractionField>();
     field->cells = kCells;
-    field->height_m = field->foam = heights_;
+    field->height_m = heights_;
+    field->foam = std::make_shared<const std::vector<float>>(heights_);
     const sea::InteractionSnapshot snapshot{tick_, {field}};
     wire::BodyView boat;
     boat.state.id = 5;
