@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "common/base/check.h"
+#include "common/sea/constants.h"
 #include "common/sea/grid_place.h"
 
 namespace onesea::world {
@@ -152,18 +153,70 @@ void AddDisplacedColumns(const TriangleMesh& mesh, Vec3d centre_of_mass_m, const
   ForColumns(mesh, centre_of_mass_m, pose, surface, kPieceCells * cells.cell_m, spreader);
 }
 
+namespace {
+
+using LumpIndex = std::pair<std::int64_t, std::int64_t>;
+using Lumps = std::map<LumpIndex, LumpedColumn>;  // places times volumes
+
+void AddLump(double x, double y, double volume_m3, double lump_m, Lumps& lumps) {
+  LumpedColumn& lump = lumps[{std::llround(x / lump_m), std::llround(y / lump_m)}];
+  lump.x_m += x * volume_m3;
+  lump.y_m += y * volume_m3;
+  lump.volume_m3 += volume_m3;
+}
+
+// Share of a column of depth `h` that is seen `r` away on a square of side `lump_m`: the integral of
+// (1/r - 1/√(r² + h²)) / 2πh, near the column in closed form.
+double SeenAt(double r, double h, double lump_m) {
+  const auto within = [&](double radius) {
+    return (radius + h - std::sqrt(radius * radius + h * h)) / h;
+  };
+  if (r == 0.0) return within(lump_m / std::sqrt(sea::kPi));
+  return lump_m * lump_m * (1.0 / r - 1.0 / std::sqrt(r * r + h * h)) / (2.0 * sea::kPi * h);
+}
+
+// As the surface sees what lies below it: three times a column's depth around. What it would see
+// further off is spread evenly over that.
+void AddSpread(double x, double y, double volume_m3, double lump_m, Lumps& lumps) {
+  const double depth_m = volume_m3 / (lump_m * lump_m);
+  const int reach = static_cast<int>(3.0 * depth_m / lump_m);
+  if (!(depth_m > 0.0) || reach == 0) return AddLump(x, y, volume_m3, lump_m, lumps);
+  const auto for_each = [&](const auto& use) {
+    for (int j = -reach; j <= reach; ++j) {
+      for (int i = -reach; i <= reach; ++i) {
+        if (i * i + j * j > reach * reach) continue;
+        use(i * lump_m, j * lump_m, SeenAt(lump_m * std::sqrt(i * i + j * j), depth_m, lump_m));
+      }
+    }
+  };
+  double seen = 0.0;
+  int squares = 0;
+  for_each([&](double, double, double share) {
+    seen += share;
+    ++squares;
+  });
+  const double rest = (1.0 - seen) / squares;
+  for_each([&](double east, double north, double share) {
+    AddLump(x + east, y + north, volume_m3 * (share + rest), lump_m, lumps);
+  });
+}
+
+}  // namespace
+
 std::vector<LumpedColumn> ColumnsAtRest(const TriangleMesh& mesh, Vec3d centre_of_mass_m,
                                         double centre_height_m, double cell_m) {
   const double lump_m = kPieceCells * cell_m;
-  std::map<std::pair<std::int64_t, std::int64_t>, LumpedColumn> lumps;
+  Lumps whole;
   const auto take = [&](double x, double y, double volume_m3) {
-    LumpedColumn& lump = lumps[{std::llround(x / lump_m), std::llround(y / lump_m)}];
-    lump.x_m += x * volume_m3;
-    lump.y_m += y * volume_m3;
-    lump.volume_m3 += volume_m3;
+    AddLump(x, y, volume_m3, lump_m, whole);
   };
   ForColumns(mesh, centre_of_mass_m, {{0.0, 0.0, centre_height_m}, {}}, HeightPatch{}, lump_m,
              take);
+  Lumps lumps;
+  for (const auto& [index, lump] : whole) {
+    if (lump.volume_m3 == 0.0) continue;
+    AddSpread(lump.x_m / lump.volume_m3, lump.y_m / lump.volume_m3, lump.volume_m3, lump_m, lumps);
+  }
   std::vector<LumpedColumn> columns;
   for (const auto& [index, lump] : lumps) {
     // Overhangs count down; where they leave nothing, there is no middle either.

@@ -70,5 +70,25 @@ TEST(DisplacedColumns, LeavesOutWhatLiesOutside) {
   EXPECT_EQ(Volume(Columns(BoxMesh({2, 2, 1}), {{500, 0, 0}, {}})), 0.0);
 }
 
+// A box of length L and draught T makes waves of wavenumber k along it as
+//   ∫∫ cos kx exp(-kz) dx dz = L sin(kL/2)/(kL/2) (1 - exp(-kT))/k
+TEST(DisplacedColumns, ShapesAtRestAreSeenThroughTheWater) {
+  const double length_m = 3.0, draught_m = 1.0;
+  const std::vector<LumpedColumn> columns =
+      ColumnsAtRest(BoxMesh({length_m, 8.0, 2.0}, 8), {}, 1.0 - draught_m, 0.5);
+  double volume_m3 = 0.0;
+  for (const LumpedColumn& column : columns) volume_m3 += column.volume_m3;
+  EXPECT_NEAR(volume_m3, length_m * 8.0 * draught_m, 1e-9);
+  for (const double k : {0.5, 1.0, 1.5, 3.0}) {
+    double waves = 0.0;
+    for (const LumpedColumn& column : columns) waves += column.volume_m3 * std::cos(k * column.x_m);
+    const double flat = std::sin(k * length_m / 2) / (k * length_m / 2);
+    const double faded = (1.0 - std::exp(-k * draught_m)) / (k * draught_m);
+    EXPECT_NEAR(waves / volume_m3, flat * faded, 0.12 * std::abs(flat)) << k;
+    if (k < 1.0 || k > 2.0) continue;  // hardly faded, or beyond the first zero of the box
+    EXPECT_LT(waves / volume_m3, 0.5 * (flat + flat * faded)) << k;
+  }
+}
+
 }  // namespace
 }  // namespace onesea::world
