@@ -10,14 +10,15 @@ namespace {
 constexpr double kSplineGain = 25.0 / 16.0;
 
 bool IsSame(const sea::InteractionField& a, const wire::RegionField& b) {
-  return a.cells == b.layout.cells && a.height_m == b.height_m && *a.foam == b.foam;
+  const bool same_foam = a.foam == nullptr ? b.foam.empty() : *a.foam == b.foam;
+  return a.cells == b.layout.cells && a.height_m == b.height_m && same_foam;
 }
 
 std::shared_ptr<const sea::InteractionField> Copy(const wire::RegionField& field) {
   auto copy = std::make_shared<sea::InteractionField>();
   copy->cells = field.layout.cells;
   copy->height_m = field.height_m;
-  copy->foam = std::make_shared<const std::vector<float>>(field.foam);
+  if (!field.foam.empty()) copy->foam = std::make_shared<const std::vector<float>>(field.foam);
   return copy;
 }
 

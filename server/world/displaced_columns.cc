@@ -165,8 +165,8 @@ void AddLump(double x, double y, double volume_m3, double lump_m, Lumps& lumps) 
   lump.volume_m3 += volume_m3;
 }
 
-// Share of a column of depth `h` that is seen `r` away on a square of side `lump_m`: the integral of
-// (1/r - 1/√(r² + h²)) / 2πh, near the column in closed form.
+// Share of a column of depth `h` that is seen `r` away on a square of side `lump_m`: the integral
+// of (1/r - 1/√(r² + h²)) / 2πh, near the column in closed form.
 double SeenAt(double r, double h, double lump_m) {
   const auto within = [&](double radius) {
     return (radius + h - std::sqrt(radius * radius + h * h)) / h;
