@@ -47,8 +47,8 @@ struct LumpedColumn {
 std::vector<LumpedColumn> ColumnsAtRest(const TriangleMesh& mesh, Vec3d centre_of_mass_m,
                                         double centre_height_m, double cell_m);
 
-/// The same for a hull at `place_m` with this heading: its volume comes out exactly. `turn` is about
-/// the vertical. Cost: some 10 ns a lump.
+/// The same for a hull at `place_m` with this heading: its volume comes out exactly. `turn` is
+/// about the vertical. Cost: some 10 ns a lump.
 void AddColumns(std::span<const LumpedColumn> columns, Vec2d place_m, const Quaternion& turn,
                 const sea::CellRect& cells, std::span<float> head_m, double share);
 

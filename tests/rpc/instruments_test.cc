@@ -294,8 +294,14 @@ TEST_F(InstrumentsTest, AFeedGoesOnAfterABusyWorker) {
   request.session = "calm";
   request.instruments = {wire::WaveGauge{{0.0, 0.0}}};
   Worker worker;
-  absl::Notification released;
-  ASSERT_TRUE(worker.Post([&] { released.WaitForNotification(); }).ok());
+  absl::Notification begun, released, drained;
+  ASSERT_TRUE(worker
+                  .Post([&] {
+                    begun.Notify();
+                    released.WaitForNotification();
+                  })
+                  .ok());
+  begun.WaitForNotification();  // or it would leave its place in the queue later
   while (worker.Post([] {}).ok()) {
   }
   const auto feed = std::make_shared<InstrumentFeed>(
@@ -310,7 +316,10 @@ TEST_F(InstrumentsTest, AFeedGoesOnAfterABusyWorker) {
     feed->OnTick(event);
   }
   released.Notify();
-  while (!worker.Post([] {}).ok()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  while (!worker.Post([&] { drained.Notify(); }).ok()) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  drained.WaitForNotification();
   event.stamp.tick = view.tick + 1 + kRefused;
   feed->OnTick(event);
   std::vector<Reading> readings;
