@@ -30,6 +30,8 @@ Corner Crossing(const Corner& wet, const Corner& dry) {
 
 // Longest side of a piece: at 0.7 a level bottom comes out level to 1 %.
 constexpr double kPieceCells = 0.7;
+// Distance of lumps: what spreads them has no ripple of a cell's length.
+constexpr double kLumpCells = 1.0;
 
 // Splits wetted pieces until they are small, and hands on the columns above them.
 template <typename Take>
@@ -205,13 +207,13 @@ void AddSpread(double x, double y, double volume_m3, double lump_m, Lumps& lumps
 
 std::vector<LumpedColumn> ColumnsAtRest(const TriangleMesh& mesh, Vec3d centre_of_mass_m,
                                         double centre_height_m, double cell_m) {
-  const double lump_m = kPieceCells * cell_m;
+  const double lump_m = kLumpCells * cell_m;
   Lumps whole;
   const auto take = [&](double x, double y, double volume_m3) {
     AddLump(x, y, volume_m3, lump_m, whole);
   };
-  ForColumns(mesh, centre_of_mass_m, {{0.0, 0.0, centre_height_m}, {}}, HeightPatch{}, lump_m,
-             take);
+  ForColumns(mesh, centre_of_mass_m, {{0.0, 0.0, centre_height_m}, {}}, HeightPatch{},
+             kPieceCells * cell_m, take);
   Lumps lumps;
   for (const auto& [index, lump] : whole) {
     if (lump.volume_m3 == 0.0) continue;

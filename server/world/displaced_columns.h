@@ -39,11 +39,11 @@ struct LumpedColumn {
   double x_m = 0.0, y_m = 0.0;  ///< from the centre of mass, bow to the east
   double volume_m3 = 0.0;
 };
-/// Below the level z = 0 for a centre of mass at `centre_height_m`; lumps about 0.7 cells apart.
+/// Below the level z = 0 for a centre of mass at `centre_height_m`; lumps about a cell apart.
 /// Spread as the surface sees them: water that is displaced z below it makes waves of wavenumber k
 /// lower by exp(-kz), as in Michell's theory of thin ships (1898). So a column's lumps lie up to
 /// three times its depth T around it, by Poisson's kernel averaged over the column: within 0.07 of
-/// (1 - exp(-kT)) / kT from kT = 1 on, 0.11 above it at kT = 0.5.
+/// (1 - exp(-kT)) / kT from kT = 1 on, 0.13 above it at kT = 0.5.
 std::vector<LumpedColumn> ColumnsAtRest(const TriangleMesh& mesh, Vec3d centre_of_mass_m,
                                         double centre_height_m, double cell_m);
 

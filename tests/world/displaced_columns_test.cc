@@ -84,7 +84,7 @@ TEST(DisplacedColumns, ShapesAtRestAreSeenThroughTheWater) {
     for (const LumpedColumn& column : columns) waves += column.volume_m3 * std::cos(k * column.x_m);
     const double flat = std::sin(k * length_m / 2) / (k * length_m / 2);
     const double faded = (1.0 - std::exp(-k * draught_m)) / (k * draught_m);
-    EXPECT_NEAR(waves / volume_m3, flat * faded, 0.12 * std::abs(flat)) << k;
+    EXPECT_NEAR(waves / volume_m3, flat * faded, 0.14 * std::abs(flat)) << k;
     if (k < 1.0 || k > 2.0) continue;  // hardly faded, or beyond the first zero of the box
     EXPECT_LT(waves / volume_m3, 0.5 * (flat + flat * faded)) << k;
   }
