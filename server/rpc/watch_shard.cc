@@ -16,8 +16,8 @@ constexpr int kLoadOfStamps = 1;
 constexpr int kLoadOfEveryFrame = 30;
 // A thread that gRPC wakes to read a query may find itself behind this one, which has no other
 // reason to stop for the 5 ms that 500 sends take. Measured, 500 viewers, p99 of 100-point queries:
-// 2.9 to 3.6 ms without a pause, 0.4 to 0.9 with one in 8 to 32 sends; more often costs CPU.
-constexpr int kSendsPerYield = 16;
+// 2.9 to 3.6 ms without a pause, 0.7 to 1.3 with one in 16 sends, 0.5 to 0.9 with one in 8.
+constexpr int kSendsPerYield = 8;
 
 grpc::ByteBuffer Wrap(const FramePtr& frame) {
   const grpc::Slice slice(frame->bytes);
