@@ -73,16 +73,26 @@ class EmbedWorld : public testing::Test {
     request.session = "a";
     request.detail = sea::QueryDetail::kNormal;
     for (const Place& place : places) request.points_m.push_back({place.x_m, place.y_m});
-    const wire::QueryAnswer answer = server_.Remote()->QueryPoints(request).value();
-    EXPECT_TRUE(Eventually([&] { return sea.session().news_time_s >= answer.time_s - 1e-9; }));
+    wire::QueryAnswer answer;
     std::vector<Water> water(places.size());
-    EXPECT_TRUE(sea.Sample(places, answer.time_s, Detail::kNormal, water).ok());
+    std::vector<double> height_m(places.size());
+    // On a busy machine once more, if the moment was history before it was asked for: wakes of the
+    // last second are known.
+    for (int tries = 0; tries < 20; ++tries) {
+      answer = server_.Remote()->QueryPoints(request).value();
+      EXPECT_TRUE(Eventually([&] { return sea.session().news_time_s >= answer.time_s - 1e-9; }));
+      EXPECT_TRUE(sea.Sample(places, answer.time_s, Detail::kNormal, water).ok());
+      for (std::size_t n = 0; n < places.size(); ++n) {
+        height_m[n] = sea.HeightAt(places[n].x_m, places[n].y_m, answer.time_s);
+      }
+      if (sea.session().news_time_s < answer.time_s + 0.9) break;
+    }
     Comparison comparison;
     comparison.allowed_m = sea.HeightErrorBound(answer.time_s) - answer.height_error_bound_m + 1e-6;
     std::vector<std::int32_t> dry;
     for (std::size_t n = 0; n < places.size(); ++n) {
       EXPECT_EQ(water[n].layers, answer.layers);
-      EXPECT_EQ(sea.HeightAt(places[n].x_m, places[n].y_m, answer.time_s), water[n].height_m);
+      EXPECT_EQ(height_m[n], water[n].height_m);
       comparison.worst_m =
           std::max(comparison.worst_m, std::abs(water[n].height_m - answer.height_m[n]));
       comparison.highest_wake_m = std::max(comparison.highest_wake_m, std::abs(water[n].wakes_m));
