@@ -48,7 +48,7 @@ InteractionSample SampleInteraction(const InteractionSnapshot& snapshot, Vec2d p
 /// The upward unit normal of a surface when this slope is added to its own.
 Vec3d Tilted(Vec3d normal, Vec2d slope);
 
-/// Heights alone, to the same bits: what hulls ask for each tick. Pre: equal sizes.
+/// Heights alone, to the same bits. Pre: equal sizes.
 void InteractionHeights(const InteractionSnapshot& snapshot, std::span<const Vec2d> places,
                         std::span<double> height_m);
 

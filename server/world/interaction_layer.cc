@@ -69,7 +69,7 @@ absl::Status InteractionLayer::Place(std::span<const RegionAsk> asks) {
     first_error.Update(status);
   }
   asks_ = SnapAsks(valid, asks_);
-  std::vector<std::unique_ptr<InteractionGrid>> dropped = std::move(grids_), created;
+  std::vector<std::unique_ptr<InteractionGrid>> dropped = std::move(grids_);
   grids_.clear();
   for (const Region& region : LayOut(asks_)) {
     const auto old = std::find_if(dropped.begin(), dropped.end(), [&](const auto& grid) {
