@@ -59,15 +59,13 @@ std::size_t BodyWater::Add(const WaterUnder& body) {
   return count_++;
 }
 
-void BodyWater::Fill(const IncidentSea& sea, std::span<const sea::InteractionFelt> interaction) {
-  ONESEA_CHECK(interaction.empty() || interaction.size() == points_m_.size());
+void BodyWater::Fill(const IncidentSea& sea) {
   if (sea.waves != nullptr) {
     ONESEA_CHECK(sea.wavenumber_rad_per_m.size() == static_cast<std::size_t>(sea.waves->bands()));
     bands_.resize(4 * points_m_.size() * sea.wavenumber_rad_per_m.size());
     sea.waves->SampleBands(points_m_, bands_);
   }
   for (std::size_t n = 0; n < count_; ++n) FillOne(sea, places_[n]);
-  if (!interaction.empty()) AddInteraction(interaction);
 }
 
 void BodyWater::AddInteraction(std::span<const sea::InteractionFelt> interaction) {

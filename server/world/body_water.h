@@ -46,12 +46,11 @@ class BodyWater {
 
   /// Where the samples of all bodies lie.
   std::span<const Vec2d> points_m() const { return points_m_; }
-  /// Fills the patches. `interaction`: what is felt of that layer at points_m(), or none.
-  /// That band is taken not to fade with depth: its pressure is what the grid was given.
-  /// Cost: some 0.5 µs a sample.
-  void Fill(const IncidentSea& sea, std::span<const sea::InteractionFelt> interaction);
+  /// Fills the patches, without the interaction layer. Cost: some 0.5 µs a sample.
+  void Fill(const IncidentSea& sea);
 
-  /// Puts the interaction layer into patches that were filled without it.
+  /// Puts what is felt of the interaction layer at points_m() into patches that are filled. That
+  /// band is taken not to fade with depth: its pressure is what the grid was given.
   void AddInteraction(std::span<const sea::InteractionFelt> interaction);
 
   const WaterPatch& patch(std::size_t body) const { return places_[body].patch; }

@@ -162,7 +162,7 @@ void World::FillWater() {
                         .current_m_per_s = options_.current_m_per_s,
                         .depth_m = options_.depth_m,
                         .terrain = options_.terrain.get()};
-  water_.Fill(sea, {});
+  water_.Fill(sea);
 }
 
 // The heads that hulls press now, on the water that answered to those before: both of this instant.

@@ -40,7 +40,7 @@ TEST_F(BodyWaterTest, SurfaceIsTheQueriedOne) {
       water.Add({.centre_m = {-300, 155}, .half_m = {3, 3}, .is_in_grid = true});
   IncidentSea sea = Sea();
   sea.level_m = 0.75;
-  water.Fill(sea, {});
+  water.Fill(sea);
   const WaterSampler sampler(water.patch(boat));
   for (double x = -302; x < -298; x += 0.7) {
     const Vec2d place{x, 155.4};
@@ -58,7 +58,7 @@ TEST_F(BodyWaterTest, SamplesTurnWithTheHull) {
   BodyWater water;
   const Vec2d along{0.6, 0.8};
   water.Add({.centre_m = {40, -10}, .half_m = {3, 1}, .along = along});
-  water.Fill(Sea(), {});
+  water.Fill(Sea());
   const WaterPatch& patch = water.patch(0);
   EXPECT_EQ(patch.columns, 6);
   EXPECT_EQ(patch.rows, 3);
@@ -80,7 +80,7 @@ TEST_F(BodyWaterTest, PressureFadesWithDepthAsTheExactSum) {
   std::vector<Vec2d> places;
   for (int n = 0; n < 40; ++n) places.push_back({37.0 * n, 11.0 * n});
   for (const Vec2d& place : places) water.Add(Round(place, 1.0));
-  water.Fill(Sea(), {});
+  water.Fill(Sea());
   for (std::size_t n = 0; n < places.size(); ++n) {
     const double depth_m = 4.0;
     sea::DepthSample exact;
@@ -105,7 +105,8 @@ TEST_F(BodyWaterTest, InteractionLayerAddsItsHeightWithoutFading) {
   BodyWater water;
   water.Add(Round({0, 0}, 1.0));
   const std::vector<sea::InteractionFelt> interaction(water.points_m().size(), {0.25, {0.5, -0.1}});
-  water.Fill({}, interaction);
+  water.Fill({});
+  water.AddInteraction(interaction);
   const WaterPoint point = SampleWater(WaterSampler(water.patch(0)), {0.1, 0.2, -3.0});
   EXPECT_NEAR(point.depth_m, 3.25, 1e-6);
   EXPECT_NEAR(point.head_m, 3.25, 1e-5);
@@ -115,7 +116,8 @@ TEST_F(BodyWaterTest, InteractionLayerAddsItsHeightWithoutFading) {
   // A body whose own waves the layer carries must not be moved by their velocity.
   water.Clear();
   water.Add({.centre_m = {}, .half_m = {1, 1}, .is_in_grid = true});
-  water.Fill({}, interaction);
+  water.Fill({});
+  water.AddInteraction(interaction);
   EXPECT_NEAR(water.incident(0).At(0, 0), 0.0, 1e-9);  // what it displaces is counted from here
   EXPECT_EQ(SampleWater(WaterSampler(water.patch(0)), {0.1, 0.2, -3.0}).velocity_m_per_s.x, 0.0);
 }
@@ -125,7 +127,7 @@ TEST_F(BodyWaterTest, MemoryIsUsedAgain) {
   for (int tick = 0; tick < 3; ++tick) {
     water.Clear();
     water.Add(Round({1.0 * tick, 0}, 1.0));
-    water.Fill(Sea(), {});
+    water.Fill(Sea());
     EXPECT_EQ(water.points_m().size(), 25u);
   }
 }
@@ -143,7 +145,7 @@ TEST_F(BodyWaterTest, TheBottomIsThatOfThePlace) {
   sea.depth_m = 15.0;
   sea.level_m = 0.5;
   sea.terrain = &slope;
-  water.Fill(sea, {});
+  water.Fill(sea);
   EXPECT_NEAR(water.patch(0).depth_m, 15.5, 1e-9);
   EXPECT_NEAR(water.patch(1).depth_m, 10.5, 1e-9);
   EXPECT_NEAR(water.patch(2).depth_m, 0.6, 1e-9);
