@@ -42,6 +42,21 @@ absl::StatusOr<ShaderProgram> ShaderProgram::Build(
   return BuildText(Assemble(vertex_files, definitions), Assemble(fragment_files, definitions));
 }
 
+absl::StatusOr<std::array<ShaderProgram, 2>> ShaderProgram::BuildForSamples(
+    const std::vector<std::string_view>& vertex_files,
+    const std::vector<std::string_view>& fragment_files,
+    std::vector<std::string_view> definitions) {
+  std::array<ShaderProgram, 2> programs;
+  definitions.emplace_back();
+  for (std::size_t n = 0; n < programs.size(); ++n) {
+    definitions.back() = n == 0 ? "SAMPLES 1" : "SAMPLES 4";
+    auto program = Build(vertex_files, fragment_files, definitions);
+    if (!program.ok()) return program.status();
+    programs[n] = std::move(*program);
+  }
+  return programs;
+}
+
 absl::StatusOr<ShaderProgram> ShaderProgram::BuildText(const std::string& vertex_text,
                                                        const std::string& fragment_text) {
   const absl::StatusOr<GLuint> vertex = Compile(GL_VERTEX_SHADER, vertex_text);

@@ -2,6 +2,7 @@
 
 #include <epoxy/gl.h>
 
+#include <array>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,7 +19,12 @@ class ShaderProgram {
   static absl::StatusOr<ShaderProgram> Build(const std::vector<std::string_view>& vertex_files,
                                              const std::vector<std::string_view>& fragment_files,
                                              const std::vector<std::string_view>& definitions = {});
-  /// The same from two complete texts.
+  /// Two of it: SAMPLES 1 and SAMPLES 4, of each pixel.
+  static absl::StatusOr<std::array<ShaderProgram, 2>> BuildForSamples(
+      const std::vector<std::string_view>& vertex_files,
+      const std::vector<std::string_view>& fragment_files,
+      std::vector<std::string_view> definitions = {});
+  /// From two complete texts.
   static absl::StatusOr<ShaderProgram> BuildText(const std::string& vertex,
                                                  const std::string& fragment);
   ShaderProgram() = default;

@@ -30,16 +30,12 @@ PixelBox Wider(const PixelBox& box, std::span<const glm::vec3> line, double radi
 }  // namespace
 
 absl::StatusOr<RopePass> RopePass::Create() {
-  std::array<ShaderProgram, 2> programs;
-  for (std::size_t n = 0; n < programs.size(); ++n) {
-    auto program = ShaderProgram::Build(
-        {"frame.glsl", "ropes.vert.glsl"},
-        {"frame.glsl", "sky.glsl", "depth.glsl", "before_sea.glsl", "ropes.frag.glsl"},
-        {n == 0 ? "SAMPLES 1" : "SAMPLES 4", "kNearest 0.2"});
-    if (!program.ok()) return program.status();
-    programs[n] = std::move(*program);
-  }
-  return RopePass(std::move(programs[0]), std::move(programs[1]));
+  auto programs = ShaderProgram::BuildForSamples(
+      {"frame.glsl", "ropes.vert.glsl"},
+      {"frame.glsl", "sky.glsl", "depth.glsl", "before_sea.glsl", "ropes.frag.glsl"},
+      {"kNearest 0.2"});
+  if (!programs.ok()) return programs.status();
+  return RopePass(std::move((*programs)[0]), std::move((*programs)[1]));
 }
 
 RopePass::RopePass(ShaderProgram one, ShaderProgram four)

@@ -1,7 +1,6 @@
 #include "client/render/passes/spray.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <cstddef>
@@ -19,16 +18,11 @@ constexpr double kLowWindShare = 0.6;
 
 absl::StatusOr<SprayPass> SprayPass::Create() {
   const std::string drops = absl::StrCat("kDrops ", kDrops);
-  std::array<ShaderProgram, 2> programs;
-  for (std::size_t n = 0; n < programs.size(); ++n) {
-    auto program =
-        ShaderProgram::Build({"frame.glsl", "spray.vert.glsl"},
-                             {"frame.glsl", "sky.glsl", "depth.glsl", "spray.frag.glsl"},
-                             {n == 0 ? "SAMPLES 1" : "SAMPLES 4", drops, "kNearest 0.2"});
-    if (!program.ok()) return program.status();
-    programs[n] = std::move(*program);
-  }
-  return SprayPass(std::move(programs[0]), std::move(programs[1]));
+  auto programs = ShaderProgram::BuildForSamples(
+      {"frame.glsl", "spray.vert.glsl"},
+      {"frame.glsl", "sky.glsl", "depth.glsl", "spray.frag.glsl"}, {drops, "kNearest 0.2"});
+  if (!programs.ok()) return programs.status();
+  return SprayPass(std::move((*programs)[0]), std::move((*programs)[1]));
 }
 
 SprayPass::SprayPass(ShaderProgram one, ShaderProgram four)

@@ -98,16 +98,11 @@ absl::StatusOr<TerrainPass> TerrainPass::Create() {
       ShaderProgram::Build({"frame.glsl", "terrain.vert.glsl"}, {"depth.glsl", "terrain.frag.glsl"},
                            {quads, "kNearest 0.2"});
   if (!geometry.ok()) return geometry.status();
-  std::array<ShaderProgram, 2> shades;
-  for (std::size_t n = 0; n < shades.size(); ++n) {
-    auto shade =
-        ShaderProgram::Build({"fullscreen.vert.glsl"},
-                             {"frame.glsl", "sky.glsl", "ground.glsl", "terrain_shade.frag.glsl"},
-                             {n == 0 ? "SAMPLES 1" : "SAMPLES 4", "GROUND_COARSE 0"});
-    if (!shade.ok()) return shade.status();
-    shades[n] = std::move(*shade);
-  }
-  return TerrainPass(std::move(*geometry), std::move(shades[0]), std::move(shades[1]));
+  auto shades = ShaderProgram::BuildForSamples(
+      {"fullscreen.vert.glsl"},
+      {"frame.glsl", "sky.glsl", "ground.glsl", "terrain_shade.frag.glsl"}, {"GROUND_COARSE 0"});
+  if (!shades.ok()) return shades.status();
+  return TerrainPass(std::move(*geometry), std::move((*shades)[0]), std::move((*shades)[1]));
 }
 
 TerrainPass::TerrainPass(ShaderProgram geometry, ShaderProgram one, ShaderProgram four)
